@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Counts test cases, not test programs, after a run of ctest: passed, failed, skipped.
+
+Reads ctest's JUnit report and, for each gtest or rostest in it, the result files that the program
+itself wrote. A program that crashed, hung, was not run, or left no test case behind counts as one
+failed case. Prints every failed case and every reason to skip, then the counts alone on a line.
+Ends with 0 only if something passed and nothing failed.
+"""
+
+import argparse
+import collections
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+PROGRAM = re.compile(r"_ctest_cloth_tearing_(?P<kind>gtest|rostest)_(?P<name>.+)")
+
+
+def read_xml(path):
+    """The root of an XML file; None if it is missing or broken off."""
+    try:
+        return ElementTree.parse(path).getroot()
+    except (OSError, ElementTree.ParseError):
+        return None
+
+
+def result_files(results, program):
+    """The files in which a gtest or rostest program has left its test cases."""
+    if program["kind"] == "gtest":
+        return [results / f"gtest-{program['name']}.xml"]
+    name = program["name"].rsplit(".", 1)[0]
+    overview = read_xml(results / f"rostest-{name}.xml")
+    if overview is None:
+        return []
+    # rostest reports on each <test test-name="x"> as "testx"; x itself writes rosunit-x.xml.
+    inner = [case.get("name")[len("test"):] for case in overview.iter("testcase")]
+    return [results / f"rosunit-{test_name}.xml" for test_name in inner]
+
+
+def count_cases(path, count, failed, reasons):
+    """Adds the cases in one result file of gtest; how many there were."""
+    root = read_xml(path)
+    cases = list(root.iter("testcase")) if root is not None else []
+    for case in cases:
+        skipped = case.find("skipped")
+        if case.find("failure") is not None or case.find("error") is not None:
+            count["failed"] += 1
+            failed.append(f"{case.get('classname')}.{case.get('name')}")
+        elif skipped is not None:
+            count["skipped"] += 1
+            reason = (skipped.get("message") or "").split("\n", 1)[-1].strip()
+            reasons[reason or "no reason given"] += 1
+        elif case.get("status") == "notrun":
+            count["skipped"] += 1
+            reasons["disabled"] += 1
+        else:
+            count["passed"] += 1
+    return len(cases)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("report", type=pathlib.Path, help="what ctest --output-junit wrote")
+    parser.add_argument("results", type=pathlib.Path, help="catkin's folder of test results")
+    arguments = parser.parse_args()
+
+    count = collections.Counter()
+    failed = []
+    reasons = collections.Counter()
+    report = read_xml(arguments.report)
+    if report is None:
+        count["failed"] += 1
+        failed.append(f"ctest, which left no report in {arguments.report}")
+
+    for entry in report.iter("testcase") if report is not None else []:
+        name, status = entry.get("name"), entry.get("status")
+        program = PROGRAM.fullmatch(name)
+        failed_before = count["failed"]
+        cases = 0
+        if program:
+            for path in result_files(arguments.results / "cloth_tearing", program):
+                cases += count_cases(path, count, failed, reasons)
+        elif status == "run":
+            count["passed"] += 1
+            cases = 1
+
+        if status != "run" and count["failed"] == failed_before:
+            count["failed"] += 1
+            failed.append(f"{name}, which crashed, hung or could not run")
+        elif cases == 0 and count["failed"] == failed_before:
+            count["failed"] += 1
+            failed.append(f"{name}, which left no test case behind")
+
+    for reason, cases in sorted(reasons.items()):
+        print(f"skipped {cases}: {reason}")
+    for name in failed:
+        print(f"failed: {name}")
+    closing = f"{count['passed']} passed, {count['failed']} failed"
+    print(closing + (f", {count['skipped']} skipped" if count["skipped"] else ""))
+    return 0 if count["passed"] and not count["failed"] else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
