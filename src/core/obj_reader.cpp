@@ -228,6 +228,7 @@ private:
     Outline outline;
     if (!face.textured)
     {
+      first_untextured_line_ = report_.untextured_faces == 0 ? face.line : first_untextured_line_;
       ++report_.untextured_faces;
     }
     for (int i = 0; i < face.corner_count; ++i)
@@ -410,6 +411,7 @@ private:
       }
       model.triangles.push_back(face);
     }
+    judgeTexture(model);
     return model;
   }
 
@@ -430,21 +432,61 @@ private:
     }
     report_.lowest = box.lowest;
     report_.highest = box.highest;
-    if (report_.untextured_faces > 0)
+  }
+
+  // Coordinates that some tools write for every corner alike are no texture either.
+  void judgeTexture(ClothModel& model)
+  {
+    int first_flat_line = 0;
+    for (std::size_t t = 0; t < model.triangles.size(); ++t)
     {
-      noteUntextured();
+      if (isFlatTexture(model.triangles[t]))
+      {
+        first_flat_line = first_flat_line == 0 ? triangles_[t].line : first_flat_line;
+        ++report_.flat_texture;
+      }
+    }
+    if (report_.flat_texture == static_cast<int>(model.triangles.size()))
+    {
+      makeUpTexture(model);
+      noteTexture(first_flat_line, report_.faces, "texture coordinates that span no area; others");
+      report_.untextured_faces = report_.faces;
+      report_.flat_texture = 0;
+    }
+    else if (report_.flat_texture > 0)
+    {
+      report_.findings.push_back(
+          { first_flat_line, "the texture coordinates of the face span no area" +
+                                 likeMore(report_.flat_texture) + "; kept" });
+    }
+    if (first_untextured_line_ > 0)
+    {
+      noteTexture(first_untextured_line_, report_.untextured_faces, "no texture coordinates; they");
     }
   }
 
-  void noteUntextured()
+  void makeUpTexture(ClothModel& model) const
   {
-    const auto first = std::find_if(content_.faces.begin(), content_.faces.end(),
-                                    [](const ObjFace& face) { return !face.textured; });
-    const int more = report_.untextured_faces - 1;
+    const Projection projection(box_);
+    for (ModelTriangle& triangle : model.triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        triangle.uv[k] = projection(model.positions[triangle.vertices[k]]);
+      }
+    }
+  }
+
+  void noteTexture(int line, int count, const std::string& what)
+  {
     report_.findings.push_back(
-        { first->line, "the face has no texture coordinates" +
-                           (more > 0 ? ", like " + std::to_string(more) + " more" : "") +
-                           "; they are made up by projection along the model's thinnest axis" });
+        { line, "the face" + likeMore(count) + ", has " + what +
+                    " are made up by projection along the model's thinnest axis" });
+  }
+
+  static std::string likeMore(int count)
+  {
+    return count == 1 ? "" : ", like " + std::to_string(count - 1) + " more";
   }
 
   static int countPieces(const Mesh& mesh)
@@ -522,7 +564,6 @@ private:
       const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
       report_.area += twice_area / 2;
       report_.least_altitude = std::min(report_.least_altitude, twice_area / longest);
-      report_.flat_texture += isFlatTexture(triangle) ? 1 : 0;
     }
   }
 
@@ -541,6 +582,7 @@ private:
   ImportReport report_;
   Box box_;
   double tolerance_ = 0;
+  int first_untextured_line_ = 0;
   VertexSets sets_;
   std::set<std::pair<int, int>> taken_;
   std::vector<SoupTriangle> triangles_;

@@ -55,7 +55,7 @@ struct ImportReport
   int dropped_faces = 0;     ///< of zero area, or flattened by a collapsed or welded edge
   int turned_faces = 0;      ///< wound against their neighbours, now alike
   int unused_vertices = 0;   ///< in no face, left out
-  int untextured_faces = 0;  ///< without `vt`, texture coordinates made up
+  int untextured_faces = 0;  ///< without usable `vt`, texture coordinates made up
   int flat_texture = 0;      ///< triangles of the model whose texture coordinates span no area
 
   Vec3d lowest = Vec3d::Zero();   ///< corner of the box around the model [m]

@@ -27,7 +27,8 @@ struct ObjImport
 ///   reported; no edge length or area of the result is zero.
 /// - Polygons are cut in their best-fit plane.
 /// - Faces wound against their neighbours are turned over and reported.
-/// - Faces without `vt` get texture coordinates by looking along the axis in which the model is
+/// - Faces without `vt`, and all faces if no `vt` of them span an area, get texture coordinates by
+/// looking along the axis in which the model is
 ///   thinnest (z rather than x rather than y, if equal), the remaining axes (x, y), (z, y) or (x,
 ///   z) becoming u and v, scaled alike so that the longer one runs from 0 to 1.
 /// - Vertices in no face are left out; the others keep their order.
