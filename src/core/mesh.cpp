@@ -9,12 +9,27 @@ namespace cloth
 namespace
 {
 
-int next(int k) { return (k + 1) % 3; }
-int previous(int k) { return (k + 2) % 3; }
+int next(int k)
+{
+  return (k + 1) % 3;
+}
+int previous(int k)
+{
+  return (k + 2) % 3;
+}
 
-std::string name(ParticleId p) { return "particle " + std::to_string(p.index); }
-std::string name(SpringId s) { return "spring " + std::to_string(s.index); }
-std::string name(TriangleId t) { return "triangle " + std::to_string(t.index); }
+std::string name(ParticleId p)
+{
+  return "particle " + std::to_string(p.index);
+}
+std::string name(SpringId s)
+{
+  return "spring " + std::to_string(s.index);
+}
+std::string name(TriangleId t)
+{
+  return "triangle " + std::to_string(t.index);
+}
 
 /// A side of a triangle as an undirected edge, ordered so that equal edges come together.
 struct Side
@@ -116,6 +131,16 @@ int Fan::indexOf(SpringId s) const
   return found == springs.end() ? -1 : static_cast<int>(found - springs.begin());
 }
 
+SpringId Edit::outerSide(const Triangle& half) const
+{
+  const auto made = [this](SpringId s)
+  {
+    return s == springs.front().parent ||
+           std::any_of(springs.begin(), springs.end(), [&](const auto& a) { return a.id == s; });
+  };
+  return *std::find_if_not(half.springs.begin(), half.springs.end(), made);
+}
+
 Mesh::Mesh(int particle_count, const std::vector<ModelTriangle>& triangles)
 {
   checkTriangles(particle_count, triangles);
@@ -176,7 +201,8 @@ void Mesh::buildSprings()
   }
   for (const Triangle& t : triangles_)
   {
-    const auto sharedWith = [&](int k) {
+    const auto sharedWith = [&](int k)
+    {
       const Spring& s = springs_[t.springs[k].index];
       return &triangles_[s.triangles[0].index] == &t ? s.triangles[1] : s.triangles[0];
     };
@@ -209,16 +235,15 @@ std::vector<TriangleId> Mesh::trianglesAt(ParticleId p) const
 Fan Mesh::fanAt(ParticleId p, TriangleId t) const
 {
   // The side of `at` that leaves p counter-clockwise is its side before corner p.
-  const auto cross = [this](TriangleId at, SpringId s) {
+  const auto cross = [this](TriangleId at, SpringId s)
+  {
     const Spring& edge = spring(s);
     return edge.triangles[0] == at ? edge.triangles[1] : edge.triangles[0];
   };
-  const auto clockwiseSide = [&](TriangleId at) {
-    return triangle(at).springs[triangle(at).cornerOf(p)];
-  };
-  const auto counterClockwiseSide = [&](TriangleId at) {
-    return triangle(at).springs[previous(triangle(at).cornerOf(p))];
-  };
+  const auto clockwiseSide = [&](TriangleId at)
+  { return triangle(at).springs[triangle(at).cornerOf(p)]; };
+  const auto counterClockwiseSide = [&](TriangleId at)
+  { return triangle(at).springs[previous(triangle(at).cornerOf(p))]; };
 
   Fan fan;
   TriangleId first = t;
@@ -285,9 +310,9 @@ int Mesh::fanCount(ParticleId p) const
 bool Mesh::onBorder(ParticleId p) const
 {
   bool found = false;
-  forEachTriangleAt(p, [&](TriangleId t) {
-    found = found || spring(triangle(t).springs[triangle(t).cornerOf(p)]).border();
-  });
+  forEachTriangleAt(
+      p, [&](TriangleId t)
+      { found = found || spring(triangle(t).springs[triangle(t).cornerOf(p)]).border(); });
   return found;
 }
 
@@ -365,23 +390,31 @@ Edit Mesh::detachAlong(ParticleId p, SpringId s)
   }
 
   const int cut = fan.indexOf(s);
-  const std::vector<TriangleId> moved(fan.triangles.begin() + cut, fan.triangles.end());
-  const TriangleId stays = fan.triangles[cut - 1];
+  return detach(p, { fan.triangles.begin() + cut, fan.triangles.end() }, { s });
+}
 
-  Edit edit;
-  const ParticleId copy = addParticle();
-  edit.particles = { { copy, { p, p } } };
-  const SpringId twin = addSpring(copy, spring(s).other(p));
-  edit.springs = { { twin, s } };
-  springs_[s.index].triangles = { stays, TriangleId{} };
-  Triangle& first = triangles_[moved.front().index];
-  first.springs[first.sideOf(s)] = twin;
-  springs_[twin.index].triangles[0] = moved.front();
-  moveTriangles(moved, p, copy);
-
-  edit.touched = moved;
-  edit.touched.push_back(stays);
-  return edit;
+Edit Mesh::openAlong(ParticleId p, SpringId from, SpringId to)
+{
+  for (SpringId s : { from, to })
+  {
+    if (!spring(s).joins(p))
+    {
+      throw TopologyError("openAlong: " + name(s) + " does not end at " + name(p));
+    }
+  }
+  const Fan fan = fanAt(p, spring(from).triangles[0]);
+  if (!fan.closed || from == to || fan.indexOf(to) < 0)
+  {
+    throw TopologyError("openAlong: " + name(from) + " and " + name(to) +
+                        " are not two springs of a closed fan around " + name(p));
+  }
+  const int count = static_cast<int>(fan.triangles.size());
+  std::vector<TriangleId> moved;
+  for (int i = fan.indexOf(from); i != fan.indexOf(to); i = (i + 1) % count)
+  {
+    moved.push_back(fan.triangles[i]);
+  }
+  return detach(p, moved, { from, to });
 }
 
 Edit Mesh::detachFan(ParticleId p, TriangleId t)
@@ -417,6 +450,31 @@ Edit Mesh::separateFans(ParticleId p)
     edit.particles.push_back(one.particles.front());
     edit.touched.insert(edit.touched.end(), one.touched.begin(), one.touched.end());
   }
+  return edit;
+}
+
+Edit Mesh::detach(ParticleId p, const std::vector<TriangleId>& moved,
+                  const std::vector<SpringId>& cuts)
+{
+  Edit edit;
+  const ParticleId copy = addParticle();
+  edit.particles = { { copy, { p, p } } };
+  edit.touched = moved;
+  for (SpringId s : cuts)
+  {
+    const auto sides = spring(s).triangles;
+    const bool first_moves = std::find(moved.begin(), moved.end(), sides[0]) != moved.end();
+    const TriangleId moves = sides[first_moves ? 0 : 1];
+    const TriangleId stays = sides[first_moves ? 1 : 0];
+    const SpringId twin = addSpring(copy, spring(s).other(p));
+    edit.springs.push_back({ twin, s });
+    springs_[s.index].triangles = { stays, TriangleId{} };
+    springs_[twin.index].triangles[0] = moves;
+    auto& around = triangles_[moves.index].springs;
+    std::replace(around.begin(), around.end(), s, twin);
+    edit.touched.push_back(stays);
+  }
+  moveTriangles(moved, p, copy);
   return edit;
 }
 
@@ -532,8 +590,7 @@ void checkCorners(const Mesh& mesh, std::vector<std::string>& found)
   }
 }
 
-void checkSprings(const Mesh& mesh, const std::vector<Side>& sides,
-                  std::vector<std::string>& found)
+void checkSprings(const Mesh& mesh, const std::vector<Side>& sides, std::vector<std::string>& found)
 {
   int edges = 0;
   for (std::size_t i = 0; i < sides.size();)
@@ -595,9 +652,8 @@ std::vector<std::string> defects(const Mesh& mesh)
   {
     const ParticleId p{ i };
     int listed = 0;
-    mesh.forEachTriangleAt(p, [&](TriangleId t) {
-      listed += mesh.triangle(t).cornerOf(p) >= 0 ? 1 : 0;
-    });
+    mesh.forEachTriangleAt(
+        p, [&](TriangleId t) { listed += mesh.triangle(t).cornerOf(p) >= 0 ? 1 : 0; });
     if (corners[i] == 0)
     {
       found.push_back(name(p) + " belongs to no triangle");

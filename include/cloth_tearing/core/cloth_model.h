@@ -12,8 +12,9 @@ namespace cloth
 /// One face of a model.
 struct ModelTriangle
 {
-  std::array<int, 3> vertices;  ///< indices into ClothModel::positions, counter-clockwise from the front
-  std::array<Vec2d, 3> uv;      ///< texture position at each corner [-]
+  std::array<int, 3>
+      vertices;  ///< indices into ClothModel::positions, counter-clockwise from the front
+  std::array<Vec2d, 3> uv;  ///< texture position at each corner [-]
 };
 
 /// Vertices and triangles; faces that name the same vertex index hang together there.

@@ -1,4 +1,4 @@
-// Who is joined to whom: particles, springs, triangles, and the three edits that tear them apart.
+// Who is joined to whom: particles, springs, triangles, and the edits that tear them apart.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct Triangle
 {
   std::array<ParticleId, 3> particles;  ///< counter-clockwise seen from the front
   std::array<SpringId, 3> springs;  ///< springs[k] joins particles[k] and particles[(k + 1) % 3]
-  std::array<Vec2d, 3> uv;          ///< texture position at particles[k], in double: areas must add up
+  std::array<Vec2d, 3> uv;  ///< texture position at particles[k], in double: areas must add up
 
   int cornerOf(ParticleId p) const;  ///< k with particles[k] == p, -1 if there is none
   int sideOf(SpringId s) const;      ///< k with springs[k] == s, -1 if there is none
@@ -69,9 +69,13 @@ struct Edit
   };
 
   std::vector<AddedParticle> particles;
-  std::vector<Added<SpringId>> springs;      ///< a middle spring (3.2.1) has no parent
-  std::vector<Added<TriangleId>> triangles;
-  std::vector<TriangleId> touched;  ///< triangles whose corners, springs or neighbours changed, added ones too
+  std::vector<Added<SpringId>> springs;      ///< half or twin first; then two middle springs, which
+                                             ///< have no parent, for each of `triangles` (3.2.1)
+  std::vector<Added<TriangleId>> triangles;  ///< the other halves of those that were split
+  std::vector<TriangleId> touched;  ///< corners, springs or neighbours changed, added ones too
+
+  /// The side of a halved triangle that was a side of the whole one.
+  SpringId outerSide(const Triangle& half) const;
 };
 
 /// Connectivity of a manifold triangle mesh with borders, in any number of pieces (3.1.1).
@@ -97,7 +101,8 @@ public:
   const Spring& spring(SpringId s) const { return springs_[s.index]; }
   const Triangle& triangle(TriangleId t) const { return triangles_[t.index]; }
 
-  /// Corner opposite spring `s` in the triangle on its side 0 or 1; none where there is no triangle.
+  /// Corner opposite spring `s` in the triangle on its side 0 or 1; none where there is no
+  /// triangle.
   ParticleId opposite(SpringId s, int side) const;
 
   /// Triangles at `p`, in no particular but a repeatable order.
@@ -136,13 +141,23 @@ public:
   /// side its own (3.3).
   Edit splitSpring(SpringId s);
 
-  /// Weak-point tear (3.2.2, figure 3.12): detaches the two triangles of `s` from one another at `p`.
+  /// Weak-point tear (3.2.2, figure 3.12): detaches the two triangles of `s` from one another at
+  /// `p`.
   ///
   /// The triangles of p's fan counter-clockwise of `s` move to a copy of `p`; `s` stays with the
   /// rest and gets a twin. Adds one particle and one spring; texture corners are untouched.
   ///
   /// @throws TopologyError if `s` does not end at `p`, is a border, or its fan at `p` is closed
   Edit detachAlong(ParticleId p, SpringId s);
+
+  /// Opens sound cloth along two springs that meet in `p`: what detachAlong() is where the fan is
+  /// closed, for cloth that is too fine to split.
+  ///
+  /// The triangles of p's fan counter-clockwise from `from` to `to` move to a copy of `p`; both
+  /// springs get a twin. Adds one particle and two springs; texture corners are untouched.
+  ///
+  /// @throws TopologyError unless both are springs of one closed fan around `p`
+  Edit openAlong(ParticleId p, SpringId from, SpringId to);
 
   /// Cuts a one-point connection: the fan that holds `t` gets its own copy of `p` (3.2.3).
   ///
@@ -170,6 +185,8 @@ private:
   void replaceTriangle(SpringId s, TriangleId from, TriangleId to);
   void moveTriangles(const std::vector<TriangleId>& moved, ParticleId from, ParticleId to);
   void buildSprings();
+  Edit detach(ParticleId p, const std::vector<TriangleId>& moved,
+              const std::vector<SpringId>& cuts);
 
   // The triangles at a particle are a list threaded through their corners; corner 3 t + k is
   // particles[k] of triangle t.

@@ -44,8 +44,8 @@ using TriangleId = Id<struct TriangleTag>;
 /// A rigid placement: x -> position + rotation * x.
 struct Pose
 {
-  Vec3d position = Vec3d::Zero();        ///< [m]
-  Quatd rotation = Quatd::Identity();    ///< unit quaternion
+  Vec3d position = Vec3d::Zero();      ///< [m]
+  Quatd rotation = Quatd::Identity();  ///< unit quaternion
 
   Vec3d apply(const Vec3d& x) const { return position + rotation * x; }
   Vec3d applyInverse(const Vec3d& x) const { return rotation.conjugate() * (x - position); }

@@ -1,0 +1,67 @@
+// One sheet of cloth: connectivity, rest shape, motion, damage and who holds it, kept in step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cloth_tearing/core/grasp.h"
+#include "cloth_tearing/core/material.h"
+#include "cloth_tearing/core/mesh.h"
+#include "cloth_tearing/core/particle_state.h"
+#include "cloth_tearing/core/rest_shape.h"
+#include "cloth_tearing/core/spring_table.h"
+
+namespace cloth
+{
+
+/// What tearing knows of each element.
+struct Damage
+{
+  std::vector<char> weak;      ///< by particle: a tear ends here and may run on (3.2.2)
+  std::vector<char> hinge;     ///< by particle: a one-point connection (3.2.3)
+  std::vector<char> at_rest;   ///< by particle: its piece was put to rest
+  std::vector<char> hem;       ///< by particle: within the hem of a pin
+  std::vector<char> outer;     ///< by spring: on the border of the untorn cloth
+  std::vector<char> released;  ///< by spring: carries no load any more
+  std::vector<std::array<int, 2>> parents;  ///< by particle; itself twice if it was there first
+  std::uint64_t tears = 0;                  ///< edits so far: the revision of the topology
+  int pieces = 0;
+  int pieces_at_rest = 0;
+};
+
+/// Every array follows every edit through follow().
+struct Cloth
+{
+  Material material;
+  Mesh mesh;
+  RestShape rest;
+  ParticleState state;
+  SpringTable springs;
+  Damage damage;
+  std::vector<Attachment> attachments;  ///< by particle
+
+  /// Extends and refreshes everything per element after an edit of `mesh`. New particles get the
+  /// position, velocity and (for copies) attachment NONE of their first parent; callers move them.
+  void follow(const Edit& edit);
+
+  /// Sets who holds a particle, and its inverse mass with it.
+  void attach(ParticleId p, const Attachment& attachment);
+
+  /// Inverse of the true mass, 0 for a particle that is held or at rest.
+  void refreshInverseMass(ParticleId p);
+
+  /// Length over rest length - 1 of a structural spring [-].
+  double strain(SpringId s) const;
+
+  /// Vector from one end to the other [m], from `from`.
+  Vec3 direction(SpringId s, ParticleId from) const;
+};
+
+/// @param pinned particles that stand still
+/// @param hem_width see TearRules [m]
+/// @throws TopologyError, Refusal
+Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const Material& material,
+                RestShapeSource rest_shape, double hem_width);
+
+}  // namespace cloth

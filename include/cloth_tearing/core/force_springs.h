@@ -1,0 +1,38 @@
+// Solver: spring forces, as in the thesis.
+#pragma once
+
+#include <vector>
+
+#include "cloth_tearing/core/solver.h"
+
+namespace cloth
+{
+
+/// Damped springs, symplectic Euler and a limiter of positions (2.1.1, 3.1.2). Cuts the step into
+/// substeps where the stiffest particle asks for it; where these run out, slivers of a tear are
+/// treated as heavier than they are (their true mass is still what is reported).
+class ForceSprings : public Solver
+{
+public:
+  explicit ForceSprings(const SolverParams& params);
+
+  std::unique_ptr<Solver> clone() const override;
+  void advance(ParticleState& state, const SpringTable& springs,
+               const std::vector<Vec3>& acceleration, double dt) override;
+  void limitStrain(ParticleState& state, const SpringTable& springs) override;
+  Stability checkStability(const ParticleState& state, const SpringTable& springs,
+                           double dt) override;
+
+private:
+  void addForces(const ParticleState& state, const std::vector<SpringLaw>& springs);
+  void sumStiffness(const ParticleState& state, const SpringTable& springs);
+
+  SolverParams params_;
+  int substeps_ = 1;
+  std::vector<Vec3> force_;               ///< by particle [N]
+  std::vector<Real> inverse_mass_limit_;  ///< by particle [1/kg]: lighter ones are treated as this
+  std::vector<double> stiffness_sum_;     ///< by particle, scratch of checkStability [N/m]
+  std::vector<double> damping_sum_;       ///< the same [N s/m]
+};
+
+}  // namespace cloth

@@ -1,0 +1,18 @@
+// Outer accelerations: gravity, air friction, wind.
+#pragma once
+
+#include <vector>
+
+#include "cloth_tearing/core/cloth.h"
+#include "cloth_tearing/core/material.h"
+
+namespace cloth
+{
+
+/// Writes the acceleration of every particle [m/s^2] (2.1.1). Wind presses on each triangle along
+/// its normal, in proportion to its area and to the normal speed of the air against it (Provot
+/// 1995); held particles get none.
+void outerAccelerations(const Cloth& cloth, const Environment& environment,
+                        std::vector<Vec3>& acceleration);
+
+}  // namespace cloth

@@ -1,0 +1,209 @@
+// The whole cloth world: what one thread owns, steps, asks and commands.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cloth_tearing/core/cloth.h"
+#include "cloth_tearing/core/cloth_model.h"
+#include "cloth_tearing/core/grasp.h"
+#include "cloth_tearing/core/material.h"
+#include "cloth_tearing/core/obstacles.h"
+#include "cloth_tearing/core/pieces.h"
+#include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/core/rest_shape.h"
+#include "cloth_tearing/core/solver.h"
+#include "cloth_tearing/core/sphere_contact.h"
+#include "cloth_tearing/core/surface.h"
+#include "cloth_tearing/core/tear_event.h"
+#include "cloth_tearing/core/tear_rules.h"
+#include "cloth_tearing/core/tearing.h"
+
+namespace cloth
+{
+
+struct SimulationParams
+{
+  Material material;
+  Environment environment;
+  SolverParams solver;
+  TearRules tearing;
+  ContactParams contact;
+  RestShapeSource rest_shape = RestShapeSource::IMPORTED;
+  double max_grasp_distance = 0.05;  ///< a grasp by nearest particle reaches so far [m], > 0
+  double max_speed = 200.0;          ///< of a particle; beyond is a runaway [m/s], > 0
+  double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
+  int tear_log_size = 100000;    ///< events kept for those who ask later, >= 1
+};
+
+/// Everything wrong with `params`, one sentence each, naming the field; empty if they can be used.
+std::vector<std::string> problems(const SimulationParams& params);
+
+struct GraspRequest
+{
+  Vec3d point = Vec3d::Zero();  ///< [m], cloth frame
+  double radius = 0.0;          ///< [m]; 0 = the single nearest particle within max_grasp_distance
+  Pose frame;                   ///< the grasp frame, cloth frame
+};
+
+struct GraspTaken
+{
+  std::uint64_t id = 0;
+  int held_particles = 0;
+  double distance = 0.0;  ///< from the point to the nearest particle [m]
+};
+
+struct ThrowRequest
+{
+  Vec3d center = Vec3d::Zero();    ///< [m], cloth frame
+  Vec3d velocity = Vec3d::Zero();  ///< [m/s]
+  double radius = 0.1;             ///< [m], > 0
+  double mass = 0.0;               ///< [kg]; 0 = kinematic
+  double lifetime = 10.0;          ///< [s], > 0
+};
+
+struct StepReport
+{
+  std::vector<TearEvent> tears;
+  int postponed = 0;               ///< springs that must wait for the next step to tear
+  double max_strain = 0.0;         ///< of springs that carry load, after contact [-]
+  std::vector<std::string> notes;  ///< what its users should know: a piece put to rest, substeps
+  std::string fault;  ///< why the step was undone and the run must pause; empty if all is well
+};
+
+/// The state in numbers.
+struct Summary
+{
+  double time = 0.0;  ///< [s]
+  std::uint64_t step = 0;
+  std::uint32_t epoch = 0;
+  std::uint64_t revision = 0;
+  std::array<std::uint64_t, TEAR_KINDS> tears{};  ///< by kind, since the last reset
+  int particles = 0;
+  int springs = 0;
+  int bend_shear_springs = 0;
+  int triangles = 0;
+  int pieces = 0;
+  int pieces_at_rest = 0;
+  double rest_area = 0.0;    ///< [m^2]
+  double mass = 0.0;         ///< [kg]
+  double max_strain = 0.0;   ///< [-]
+  double utilisation = 0.0;  ///< the strain that tearing reads over its threshold; 1 = tears
+  Vec3d utilisation_at = Vec3d::Zero();  ///< where [m], cloth frame
+  std::uint64_t state_hash = 0;          ///< of positions, velocities, topology, grasps and spheres
+};
+
+/// Owned by one thread. Copyable: a copy goes on by itself.
+class Simulation
+{
+public:
+  /// @param model in the cloth frame: its axes are those of the world it hangs in
+  /// @param pinned particles that stand still
+  /// @throws Refusal naming everything wrong with `params`, TopologyError for a model that is no
+  /// mesh
+  Simulation(const ClothModel& model, const std::vector<int>& pinned,
+             const SimulationParams& params);
+  Simulation(const Simulation& other);
+  Simulation& operator=(const Simulation& other);
+  Simulation(Simulation&&) = default;
+  Simulation& operator=(Simulation&&) = default;
+
+  /// One tick of params().solver.time_step (design: carry, advance, limit, contact, tear).
+  StepReport step();
+
+  /// Back to the beginning: the cloth as built, no grasps, no spheres. The epoch rises by one;
+  /// time, tear numbers and the log go on.
+  void reset();
+
+  /// Takes hold of the cloth. Pinned particles are passed over.
+  /// @throws Refusal if nothing is within reach, or a particle is held by another grasp
+  GraspTaken grasp(const GraspRequest& request);
+
+  /// Sends a grasp on its way; a second drag replaces the first.
+  /// @throws Refusal if there is no such grasp or the target is not usable
+  void drag(std::uint64_t grasp, const DragTarget& target);
+
+  /// Lets go. @throws Refusal if there is no such grasp
+  void release(std::uint64_t grasp);
+
+  /// Lets go of everything. @return how many grasps there were
+  int releaseAll();
+
+  /// The full set of streamed spheres: known ids move on from where they are, others are new,
+  /// missing ones vanish.
+  /// @throws Refusal naming everything wrong with them, twice the same id among it
+  void setSpheres(const std::vector<Sphere>& spheres);
+
+  /// @return the id of the thrown sphere
+  /// @throws Refusal naming everything wrong with it
+  std::uint64_t throwSphere(const ThrowRequest& request);
+
+  const SimulationParams& params() const { return params_; }
+  const Cloth& cloth() const { return cloth_; }
+  const std::vector<Grasp>& grasps() const { return grasps_; }
+  const std::vector<Sphere>& spheres() const { return spheres_; }
+  double time() const { return time_; }
+  std::uint64_t stepCount() const { return step_; }
+  std::uint32_t epoch() const { return epoch_; }
+  std::uint64_t revision() const { return cloth_.damage.tears; }
+
+  /// Logged tears from sequence number `first` on, at most `most`.
+  std::vector<TearEvent> tearsSince(std::uint64_t first, std::size_t most) const;
+
+  /// The oldest and newest tear number in the log; {1, 0} if there was none.
+  std::array<std::uint64_t, 2> loggedTears() const;
+
+  Snapshot snapshot() const;
+  Summary summary() const;
+  std::uint64_t stateHash() const;
+
+private:
+  /// What a step may change before it tears, to go back to if the step goes wrong.
+  struct Undo
+  {
+    std::vector<Vec3> velocity;
+    std::vector<Grasp> grasps;
+    std::vector<Sphere> spheres;
+  };
+
+  void remember();
+  void undo();
+  std::string findFault(double max_strain) const;
+  void restLoosePieces(std::vector<std::string>& notes);
+  void putToRest(const std::vector<ParticleId>& piece);
+  void checkStability(std::vector<std::string>& notes);
+  void record(StepReport& report);
+  TearCause causeOf(const Vec3d& position) const;
+  Grasp& findGrasp(std::uint64_t id);
+  void letGo(const Grasp& grasp);
+  Sphere streamed(const Sphere& set) const;
+  std::vector<ParticleId> within(const GraspRequest& request, double& nearest) const;
+
+  SimulationParams params_;
+  Cloth untorn_;  ///< as built, for reset()
+  Cloth cloth_;
+  std::unique_ptr<Solver> solver_;
+  SphereContact contact_;
+  Tearing tearing_;
+  Pieces pieces_;
+  std::vector<Grasp> grasps_;  ///< by ascending id
+  std::vector<Sphere> spheres_;
+  std::vector<Vec3> acceleration_;  ///< scratch of a step [m/s^2]
+  Undo undo_;
+  Stability stability_;
+  std::deque<TearEvent> log_;
+  std::array<std::uint64_t, TEAR_KINDS> tears_{};  ///< by kind, since the last reset
+  double time_ = 0.0;
+  std::uint64_t step_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::uint64_t next_sequence_ = 1;
+  std::uint64_t next_grasp_ = 1;
+  std::uint64_t next_thrown_ = 1;
+};
+
+}  // namespace cloth

@@ -1,0 +1,121 @@
+// The thread that owns the simulation: paces it, and takes commands between its steps.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "cloth_tearing/core/command_queue.h"
+#include "cloth_tearing/core/simulation.h"
+
+namespace cloth
+{
+
+enum class Pace
+{
+  WALL,  ///< real time on the steady clock
+  FREE,  ///< as fast as possible
+  STEP,  ///< only when asked to, by step()
+};
+
+struct LoopState
+{
+  Pace pace = Pace::WALL;
+  bool paused = false;
+  double real_time_factor = 0.0;  ///< simulated over elapsed time, over about the last second [-]
+};
+
+/// Answer to step().
+struct StepAnswer
+{
+  std::uint64_t steps = 0;  ///< done by this request
+  std::string cut_short;    ///< why it ended early: a reset or a fault; empty if it did not
+  double time = 0.0;        ///< [s]
+  std::uint64_t step = 0;
+  std::uint32_t epoch = 0;
+  std::uint64_t state_hash = 0;
+  std::uint64_t tears = 0;  ///< during this request
+};
+
+/// Runs a Simulation on a thread of its own. All members may be called from any thread but the
+/// loop's own.
+class SimulationLoop
+{
+public:
+  /// Called on the loop's thread after every step: quick work only.
+  using Listener = std::function<void(const Simulation&, const StepReport&)>;
+
+  struct Options
+  {
+    Pace pace = Pace::WALL;
+    bool paused = false;                         ///< start paused
+    std::chrono::milliseconds patience{ 1000 };  ///< how long a command may wait before it is Busy
+  };
+
+  SimulationLoop(std::unique_ptr<Simulation> simulation, const Options& options, Listener listener);
+  SimulationLoop(const SimulationLoop&) = delete;
+  SimulationLoop& operator=(const SimulationLoop&) = delete;
+
+  /// Ends the thread after the step it is in; whoever waits for an answer gets Busy.
+  ~SimulationLoop();
+
+  /// Runs `command(Simulation&)` between two steps and returns its answer, or rethrows what it
+  /// threw.
+  /// @throws Busy if it could not be run in time; it will not be run later
+  template <class Command>
+  auto call(Command&& command)
+  {
+    return queue_.call(std::forward<Command>(command), options_.patience);
+  }
+
+  /// Does `steps` steps and answers when they are done; 0 only asks. Requests are served one
+  /// after the other; other commands are taken between their steps.
+  /// @throws Refusal unless paused or Pace::STEP
+  StepAnswer step(std::uint64_t steps);
+
+  void pause();
+  void resume();
+
+  /// Resets the simulation; a step() under way is cut short.
+  void reset();
+
+  LoopState state() const;
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  /// A step() that is under way. Lives on the loop's thread.
+  struct Request
+  {
+    std::uint64_t left = 0;
+    StepAnswer answer;
+    std::promise<StepAnswer> promise;
+  };
+
+  void run();
+  void oneStep();
+  void keepPace(Clock::time_point& due);
+  void answerRequest(const std::string& cut_short);
+  void cutRequests(const std::string& why);
+  void measure();
+
+  Options options_;
+  Listener listener_;
+  std::unique_ptr<Simulation> simulation_;
+  CommandQueue<Simulation> queue_;
+  std::deque<std::unique_ptr<Request>> requests_;
+  std::atomic<bool> ending_{ false };
+  std::atomic<bool> paused_{ false };
+  std::atomic<double> real_time_factor_{ 0.0 };
+  Clock::time_point measured_at_;
+  double measured_time_ = 0.0;  ///< simulated time then [s]
+  std::thread thread_;          ///< last: it starts when everything else is there
+};
+
+}  // namespace cloth

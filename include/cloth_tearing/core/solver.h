@@ -1,0 +1,61 @@
+// How a step of time moves the cloth: one interface, two solvers.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cloth_tearing/core/particle_state.h"
+#include "cloth_tearing/core/spring_table.h"
+
+namespace cloth
+{
+
+enum class SolverKind
+{
+  XPBD,           ///< compliant constraints, one Gauss-Seidel sweep a step (Macklin et al. 2016)
+  FORCE_SPRINGS,  ///< spring forces and symplectic Euler, as in the thesis (2.1.1, 3.1.2)
+};
+
+struct SolverParams
+{
+  SolverKind kind = SolverKind::XPBD;
+  double time_step = 0.001;  ///< dt [s], > 0 and <= 0.02
+  double max_strain = 0.10;  ///< limiter of the force springs [-], > 0; XPBD needs none (2.1.1)
+  int max_substeps = 8;      ///< the force springs may cut a step into this many, 1..64
+};
+
+std::vector<std::string> problems(const SolverParams& params);
+
+/// How a solver keeps a step stable.
+struct Stability
+{
+  int substeps = 1;
+  int floored = 0;  ///< particles that it treats as heavier than they are, since substeps ran out
+};
+
+/// Moves particles under springs and outer accelerations. Knows nothing of tearing: it is given
+/// the springs anew each step.
+class Solver
+{
+public:
+  virtual ~Solver() = default;
+  virtual std::unique_ptr<Solver> clone() const = 0;
+
+  /// One symplectic step of `dt` [s] from state.previous, the positions at its start; particles
+  /// of inverse mass 0 are where they are to end.
+  virtual void advance(ParticleState& state, const SpringTable& springs,
+                       const std::vector<Vec3>& acceleration, double dt) = 0;
+
+  /// Draws overlong structural springs together, positions only (2.1.1, Provot 1995).
+  virtual void limitStrain(ParticleState& state, const SpringTable& springs) = 0;
+
+  /// What it takes to stay stable at a step of `dt` [s]; to be asked anew after each tear, which
+  /// makes lighter particles. The solver keeps to the answer from then on.
+  virtual Stability checkStability(const ParticleState& state, const SpringTable& springs,
+                                   double dt) = 0;
+};
+
+std::unique_ptr<Solver> makeSolver(const SolverParams& params);
+
+}  // namespace cloth

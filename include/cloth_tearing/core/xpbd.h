@@ -1,0 +1,23 @@
+// Solver: compliant distance constraints, one Gauss-Seidel sweep a step.
+#pragma once
+
+#include "cloth_tearing/core/solver.h"
+
+namespace cloth
+{
+
+/// XPBD (Macklin, Mueller, Chentanez 2016) with small steps (Macklin et al. 2019): compliance is
+/// the inverse stiffness, the multipliers start at zero each step, damping acts inside the
+/// constraint. Stable at any step; needs no strain limiter.
+class XpbdSolver : public Solver
+{
+public:
+  std::unique_ptr<Solver> clone() const override;
+  void advance(ParticleState& state, const SpringTable& springs,
+               const std::vector<Vec3>& acceleration, double dt) override;
+  void limitStrain(ParticleState& state, const SpringTable& springs) override;
+  Stability checkStability(const ParticleState& state, const SpringTable& springs,
+                           double dt) override;
+};
+
+}  // namespace cloth

@@ -1,0 +1,63 @@
+// The sentences in which values are refused.
+#include "cloth_tearing/core/checks.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace cloth
+{
+namespace
+{
+
+std::string limits(const Range& range)
+{
+  const bool bounded_below = std::isfinite(range.low);
+  const bool bounded_above = std::isfinite(range.high);
+  std::string words = "must be finite";
+  if (bounded_below)
+  {
+    words = std::string("must be ") + (range.above_low ? "greater than " : "at least ") +
+            text(range.low);
+  }
+  if (bounded_above)
+  {
+    words += " and at most " + text(range.high);
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string text(double value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  for (char& c : buffer)
+  {
+    c = c == ',' ? '.' : c;  // whatever the locale of the process is
+  }
+  return buffer;
+}
+
+void check(std::vector<std::string>& found, const std::string& field, double value,
+           const Range& range)
+{
+  const bool low_enough = value <= range.high;
+  const bool high_enough = range.above_low ? value > range.low : value >= range.low;
+  if (!std::isfinite(value) || !low_enough || !high_enough)
+  {
+    found.push_back(field + " is " + text(value) + ", " + limits(range));
+  }
+}
+
+void check(std::vector<std::string>& found, const std::string& field, const Vec3d& value,
+           double limit)
+{
+  static const char* const AXES[3] = { ".x", ".y", ".z" };
+  for (int i = 0; i < 3; ++i)
+  {
+    check(found, field + AXES[i], value[i], Range::between(-limit, limit));
+  }
+}
+
+}  // namespace cloth

@@ -1,0 +1,158 @@
+// Builds a cloth, and keeps its arrays in step with its mesh.
+#include "cloth_tearing/core/cloth.h"
+
+#include "cloth_tearing/core/pieces.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// Marks what lies within `width` of a pin. A garment folds in space, so distance is measured
+/// between particles of the model as it hangs; it is small beside the folds.
+std::vector<char> hemParticles(const std::vector<Vec3d>& positions, const std::vector<int>& pinned,
+                               double width)
+{
+  std::vector<char> hem(positions.size(), 0);
+  if (width <= 0.0)
+  {
+    return hem;
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    for (int pin : pinned)
+    {
+      if ((positions[i] - positions[pin]).squaredNorm() <= width * width)
+      {
+        hem[i] = 1;
+        break;
+      }
+    }
+  }
+  return hem;
+}
+
+Damage undamaged(const Mesh& mesh)
+{
+  Damage damage;
+  damage.weak.assign(mesh.particleCount(), 0);
+  damage.at_rest.assign(mesh.particleCount(), 0);
+  damage.hinge.resize(mesh.particleCount());
+  damage.parents.resize(mesh.particleCount());
+  for (int i = 0; i < mesh.particleCount(); ++i)
+  {
+    damage.hinge[i] = mesh.fanCount({ i }) > 1 ? 1 : 0;
+    damage.parents[i] = { i, i };
+  }
+  damage.released.assign(mesh.springCount(), 0);
+  damage.outer.resize(mesh.springCount());
+  for (int i = 0; i < mesh.springCount(); ++i)
+  {
+    damage.outer[i] = mesh.spring({ i }).border() ? 1 : 0;
+  }
+  damage.pieces = countPieces(mesh);
+  return damage;
+}
+
+}  // namespace
+
+void Cloth::follow(const Edit& edit)
+{
+  for (const auto& added : edit.particles)
+  {
+    const int a = added.parents[0].index;
+    const int b = added.parents[1].index;
+    state.position.push_back(state.position[a]);
+    state.velocity.push_back(state.velocity[a]);
+    state.previous.push_back(state.previous[a]);
+    state.inverse_mass.push_back(0);
+    attachments.push_back({});
+    damage.weak.push_back(0);
+    damage.hinge.push_back(0);
+    damage.at_rest.push_back(damage.at_rest[a]);
+    damage.hem.push_back(damage.hem[a] && damage.hem[b]);
+    damage.parents.push_back({ a, b });
+  }
+  for (const auto& added : edit.springs)
+  {
+    const int parent = added.parent.index;
+    damage.released.push_back(added.parent.valid() ? damage.released[parent] : 0);
+    damage.outer.push_back(added.parent.valid() ? damage.outer[parent] : 0);
+  }
+  rest.follow(mesh, edit);
+  springs.refresh(mesh, rest, material, edit.touched);
+
+  const auto refreshParticle = [&](ParticleId p)
+  {
+    refreshInverseMass(p);
+    damage.hinge[p.index] = mesh.fanCount(p) > 1 ? 1 : 0;
+  };
+  for (TriangleId t : edit.touched)
+  {
+    for (ParticleId p : mesh.triangle(t).particles)
+    {
+      refreshParticle(p);
+    }
+  }
+  for (const auto& added : edit.particles)
+  {
+    refreshParticle(added.parents[0]);
+  }
+  ++damage.tears;
+}
+
+void Cloth::attach(ParticleId p, const Attachment& attachment)
+{
+  attachments[p.index] = attachment;
+  if (attachment.held())
+  {
+    state.velocity[p.index].setZero();
+  }
+  refreshInverseMass(p);
+}
+
+void Cloth::refreshInverseMass(ParticleId p)
+{
+  const bool moves = !attachments[p.index].held() && !damage.at_rest[p.index];
+  state.inverse_mass[p.index] = moves ? static_cast<Real>(1.0 / rest.mass[p.index]) : Real(0);
+}
+
+double Cloth::strain(SpringId s) const
+{
+  const auto& ends = mesh.spring(s).particles;
+  const Vec3d a = state.position[ends[0].index].cast<double>();
+  const Vec3d b = state.position[ends[1].index].cast<double>();
+  return (b - a).norm() / rest.length[s.index] - 1.0;
+}
+
+Vec3 Cloth::direction(SpringId s, ParticleId from) const
+{
+  return state.position[mesh.spring(s).other(from).index] - state.position[from.index];
+}
+
+Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const Material& material,
+                RestShapeSource rest_shape, double hem_width)
+{
+  Cloth cloth;
+  cloth.material = material;
+  cloth.mesh = Mesh(static_cast<int>(model.positions.size()), model.triangles);
+  cloth.rest = makeRestShape(cloth.mesh, model.positions, rest_shape, material.areal_density);
+  cloth.springs = makeSpringTable(cloth.mesh, cloth.rest, material);
+  cloth.damage = undamaged(cloth.mesh);
+  cloth.damage.hem = hemParticles(model.positions, pinned, hem_width);
+  cloth.state.resize(cloth.mesh.particleCount());
+  cloth.attachments.resize(cloth.mesh.particleCount());
+  for (int i = 0; i < cloth.mesh.particleCount(); ++i)
+  {
+    cloth.state.position[i] = model.positions[i].cast<Real>();
+    cloth.state.previous[i] = cloth.state.position[i];
+    cloth.refreshInverseMass({ i });
+  }
+  for (int p : pinned)
+  {
+    cloth.attach({ p }, { Attachment::Kind::PIN, 0 });
+  }
+  return cloth;
+}
+
+}  // namespace cloth

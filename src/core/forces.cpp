@@ -1,0 +1,56 @@
+// Gravity, air friction and wind as accelerations.
+#include "cloth_tearing/core/forces.h"
+
+namespace cloth
+{
+namespace
+{
+
+void addWind(const Cloth& cloth, const Environment& environment, std::vector<Vec3>& acceleration)
+{
+  const Vec3 wind = environment.wind.cast<Real>();
+  const auto drag = static_cast<Real>(environment.wind_drag);
+  const ParticleState& state = cloth.state;
+  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
+  {
+    const auto& corners = cloth.mesh.triangle({ i }).particles;
+    const int a = corners[0].index;
+    const int b = corners[1].index;
+    const int c = corners[2].index;
+    const Vec3 normal = (state.position[b] - state.position[a])
+                            .cross(state.position[c] - state.position[a]);  // twice the area long
+    const Real twice_area = std::sqrt(normal.squaredNorm());
+    if (!(twice_area > 0))
+    {
+      continue;
+    }
+    const Vec3 velocity = (state.velocity[a] + state.velocity[b] + state.velocity[c]) / Real(3);
+    const Real normal_speed = (wind - velocity).dot(normal) / twice_area;
+    const Vec3 on_corner = (drag * normal_speed / Real(6)) * normal;
+    for (int p : { a, b, c })
+    {
+      acceleration[p] += state.inverse_mass[p] * on_corner;
+    }
+  }
+}
+
+}  // namespace
+
+void outerAccelerations(const Cloth& cloth, const Environment& environment,
+                        std::vector<Vec3>& acceleration)
+{
+  const ParticleState& state = cloth.state;
+  const Vec3 gravity = environment.gravity.cast<Real>();
+  const auto friction = static_cast<Real>(environment.air_friction);
+  acceleration.resize(state.size());
+  for (int i = 0; i < state.size(); ++i)
+  {
+    acceleration[i] = gravity - friction * state.velocity[i];
+  }
+  if (environment.wind_drag > 0.0)
+  {
+    addWind(cloth, environment, acceleration);
+  }
+}
+
+}  // namespace cloth

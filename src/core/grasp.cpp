@@ -1,0 +1,90 @@
+// Carries grasps towards their targets.
+#include "cloth_tearing/core/grasp.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth_tearing/core/checks.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// @return whether it has arrived
+bool moveTowards(Vec3d& position, const Vec3d& target, double distance)
+{
+  const Vec3d way = target - position;
+  const double left = std::sqrt(way.squaredNorm());
+  if (left <= distance)
+  {
+    position = target;
+    return true;
+  }
+  position += distance / left * way;
+  return false;
+}
+
+/// Turns by `angle` [rad] at most. Products and normalisation only: the same bits everywhere.
+/// @return whether it has arrived
+bool turnTowards(Quatd& rotation, const Quatd& target, double angle)
+{
+  Quatd way = target * rotation.conjugate();
+  if (way.w() < 0.0)
+  {
+    way.coeffs() = -way.coeffs();
+  }
+  const Vec3d axis(way.x(), way.y(), way.z());  // as long as the sine of half the way
+  const double sine = std::sqrt(axis.squaredNorm());
+  const double half = 0.5 * angle;
+  if (sine <= half * way.w())
+  {
+    rotation = target;
+    return true;
+  }
+  const Vec3d turn = half / sine * axis;  // tan(half) is half to the third order
+  rotation = Quatd(1.0, turn.x(), turn.y(), turn.z()) * rotation;
+  rotation.coeffs() /= std::sqrt(rotation.coeffs().squaredNorm());
+  return false;
+}
+
+}  // namespace
+
+void carry(Grasp& grasp, ParticleState& state, double dt)
+{
+  if (grasp.target)
+  {
+    const DragTarget& target = *grasp.target;
+    const bool there =
+        moveTowards(grasp.pose.position, target.pose.position, target.linear_speed * dt);
+    const bool turned =
+        turnTowards(grasp.pose.rotation, target.pose.rotation, target.angular_speed * dt);
+    if (there && turned)
+    {
+      grasp.target.reset();
+    }
+  }
+  for (const Grasp::Held& held : grasp.held)
+  {
+    const int p = held.particle.index;
+    const Vec3 place = grasp.pose.apply(held.offset).cast<Real>();
+    state.velocity[p] = (place - state.previous[p]) / static_cast<Real>(dt);
+    state.position[p] = place;
+  }
+}
+
+std::vector<std::string> problems(const DragTarget& target)
+{
+  std::vector<std::string> found;
+  check(found, "target position [m]", target.pose.position, MAX_COORDINATE);
+  const double norm = target.pose.rotation.norm();
+  if (!(std::abs(norm - 1.0) < 1e-3))
+  {
+    found.push_back("target orientation has length " + text(norm) + ", must be a unit quaternion");
+  }
+  check(found, "linear_speed [m/s]", target.linear_speed, Range::aboveUpTo(0.0, 100.0));
+  check(found, "angular_speed [rad/s]", target.angular_speed, Range::aboveUpTo(0.0, 100.0));
+  return found;
+}
+
+}  // namespace cloth

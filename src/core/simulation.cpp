@@ -1,0 +1,550 @@
+// One tick after the other, and commands between them.
+#include "cloth_tearing/core/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/forces.h"
+#include "cloth_tearing/core/state_hash.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// How often a loose piece is looked for beyond the bounds [steps].
+constexpr std::uint64_t BOUNDS_INTERVAL = 100;
+
+void append(std::vector<std::string>& found, const std::vector<std::string>& more)
+{
+  found.insert(found.end(), more.begin(), more.end());
+}
+
+const SimulationParams& checked(const SimulationParams& params)
+{
+  refuseIf(problems(params));
+  return params;
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const SimulationParams& params)
+{
+  std::vector<std::string> found = problems(params.material);
+  append(found, problems(params.environment));
+  append(found, problems(params.solver));
+  append(found, problems(params.tearing));
+  append(found, problems(params.contact));
+  check(found, "max_grasp_distance [m]", params.max_grasp_distance,
+        Range::aboveUpTo(0.0, MAX_COORDINATE));
+  check(found, "max_speed [m/s]", params.max_speed, Range::aboveUpTo(0.0, 1e4));
+  check(found, "runaway_strain [-]", params.runaway_strain, Range::aboveUpTo(0.0, 1e4));
+  check(found, "tear_log_size", params.tear_log_size, Range::between(1, 10000000));
+  return found;
+}
+
+Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
+                       const SimulationParams& params)
+    : params_(checked(params))
+    , untorn_(
+          makeCloth(model, pinned, params.material, params.rest_shape, params.tearing.hem_width))
+    , cloth_(untorn_)
+    , solver_(makeSolver(params.solver))
+    , tearing_(params.tearing)
+{
+  const double dt = params_.solver.time_step;
+  stability_ = solver_->checkStability(cloth_.state, cloth_.springs, dt);
+  if (stability_.floored > 0)
+  {
+    throw Refusal("time_step [s] is " + text(dt) + ", too long for the force springs of " +
+                  std::to_string(stability_.floored) + " particles even in max_substeps = " +
+                  std::to_string(params_.solver.max_substeps) +
+                  " substeps: lower it or the stiffness, or raise areal_density or max_substeps");
+  }
+}
+
+Simulation::Simulation(const Simulation& other)
+    : params_(other.params_)
+    , untorn_(other.untorn_)
+    , cloth_(other.cloth_)
+    , solver_(other.solver_->clone())
+    , contact_(other.contact_)
+    , tearing_(other.tearing_)
+    , pieces_(other.pieces_)
+    , grasps_(other.grasps_)
+    , spheres_(other.spheres_)
+    , acceleration_(other.acceleration_)
+    , undo_(other.undo_)
+    , stability_(other.stability_)
+    , log_(other.log_)
+    , tears_(other.tears_)
+    , time_(other.time_)
+    , step_(other.step_)
+    , epoch_(other.epoch_)
+    , next_sequence_(other.next_sequence_)
+    , next_grasp_(other.next_grasp_)
+    , next_thrown_(other.next_thrown_)
+{
+}
+
+Simulation& Simulation::operator=(const Simulation& other)
+{
+  *this = Simulation(other);
+  return *this;
+}
+
+StepReport Simulation::step()
+{
+  const double dt = params_.solver.time_step;
+  StepReport report;
+  remember();
+  for (Grasp& grasp : grasps_)
+  {
+    carry(grasp, cloth_.state, dt);  // held particles follow their grippers
+  }
+  outerAccelerations(cloth_, params_.environment, acceleration_);  // gravity, air, wind (2.1.1)
+  solver_->advance(cloth_.state, cloth_.springs, acceleration_, dt);
+  solver_->limitStrain(cloth_.state, cloth_.springs);  // woven cloth hardly stretches (2.1.1)
+  moveSpheres(spheres_, params_.contact, params_.environment, dt);
+  contact_.resolve(cloth_, spheres_, params_.contact, dt);  // spheres push the cloth (4.1)
+
+  report.max_strain = tearing_.scan(cloth_);
+  report.fault = findFault(report.max_strain);
+  if (!report.fault.empty())
+  {
+    undo();
+    return report;
+  }
+  ++step_;
+  time_ += dt;
+  report.tears = tearing_.tear(
+      cloth_, grasps_,
+      [this](const Vec3& x) { return isInsideObstacle(x, spheres_, params_.contact); },
+      report.postponed);
+  record(report);
+  if (!report.tears.empty())
+  {
+    checkStability(report.notes);
+  }
+  if (step_ % BOUNDS_INTERVAL == 0)
+  {
+    restLoosePieces(report.notes);
+  }
+  return report;
+}
+
+void Simulation::remember()
+{
+  cloth_.state.previous = cloth_.state.position;
+  undo_.velocity = cloth_.state.velocity;
+  undo_.grasps = grasps_;
+  undo_.spheres = spheres_;
+}
+
+void Simulation::undo()
+{
+  cloth_.state.position = cloth_.state.previous;
+  cloth_.state.velocity = undo_.velocity;
+  grasps_ = undo_.grasps;
+  spheres_ = undo_.spheres;
+}
+
+std::string Simulation::findFault(double max_strain) const
+{
+  if (!(max_strain <= params_.runaway_strain))
+  {
+    return "a strain of " + text(max_strain) +
+           " exceeds runaway_strain = " + text(params_.runaway_strain) + ": the step was undone";
+  }
+  const auto limit = static_cast<Real>(params_.max_speed * params_.max_speed);
+  for (int i = 0; i < cloth_.state.size(); ++i)
+  {
+    const Real squared = cloth_.state.velocity[i].squaredNorm();
+    if (!(squared <= limit) || !cloth_.state.position[i].allFinite())
+    {
+      return "particle " + std::to_string(i) + " moves at " + text(std::sqrt(double(squared))) +
+             " m/s, beyond max_speed = " + text(params_.max_speed) + ": the step was undone";
+    }
+  }
+  return {};
+}
+
+void Simulation::checkStability(std::vector<std::string>& notes)
+{
+  const Stability stability =
+      solver_->checkStability(cloth_.state, cloth_.springs, params_.solver.time_step);
+  if (stability.substeps != stability_.substeps || stability.floored > stability_.floored)
+  {
+    notes.push_back("the force springs take " + std::to_string(stability.substeps) +
+                    " substeps a step, " + std::to_string(stability.floored) +
+                    " light particles at the mass floor");
+  }
+  stability_ = stability;
+}
+
+void Simulation::record(StepReport& report)
+{
+  for (TearEvent& event : report.tears)
+  {
+    event.sequence = next_sequence_++;
+    event.epoch = epoch_;
+    event.step = step_;
+    event.time = time_;
+    event.cause = causeOf(event.position);
+    ++tears_[static_cast<int>(event.kind)];
+    log_.push_back(event);
+  }
+  while (log_.size() > static_cast<std::size_t>(params_.tear_log_size))
+  {
+    log_.pop_front();
+  }
+}
+
+TearCause Simulation::causeOf(const Vec3d& position) const
+{
+  TearCause nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  const auto consider = [&](CauseKind kind, std::uint64_t id, double distance)
+  {
+    if (distance < nearest.distance)
+    {
+      nearest = { kind, id, distance };
+    }
+  };
+  for (const Grasp& grasp : grasps_)
+  {
+    for (const Grasp::Held& held : grasp.held)
+    {
+      const Vec3d at = cloth_.state.position[held.particle.index].cast<double>();
+      consider(CauseKind::GRASP, grasp.id, (at - position).norm());
+    }
+  }
+  for (const Sphere& sphere : spheres_)
+  {
+    const double distance = (sphere.center - position).norm() - sphere.radius;
+    consider(CauseKind::SPHERE, sphere.id, std::max(0.0, distance));
+  }
+  return nearest.kind == CauseKind::NONE ? TearCause{} : nearest;
+}
+
+void Simulation::restLoosePieces(std::vector<std::string>& notes)
+{
+  const Vec3 low = params_.contact.bounds_min.cast<Real>();
+  const Vec3 high = params_.contact.bounds_max.cast<Real>();
+  const auto beyond = [&](ParticleId p)
+  {
+    const Vec3& x = cloth_.state.position[p.index];
+    return (x.array() < low.array()).any() || (x.array() > high.array()).any();
+  };
+  const auto attached = [&](ParticleId p) { return cloth_.attachments[p.index].held(); };
+  for (int i = 0; i < cloth_.mesh.particleCount(); ++i)
+  {
+    if (cloth_.damage.at_rest[i] || !beyond({ i }))
+    {
+      continue;
+    }
+    const std::vector<ParticleId> piece = pieces_.pieceOf(cloth_.mesh, { i });
+    if (std::any_of(piece.begin(), piece.end(), attached))
+    {
+      return;  // one piece in a thousand hangs out of the bounds on its pins: look again later
+    }
+    putToRest(piece);
+    notes.push_back("a loose piece of " + std::to_string(piece.size()) +
+                    " particles left the bounds and was put to rest");
+  }
+}
+
+void Simulation::putToRest(const std::vector<ParticleId>& piece)
+{
+  for (ParticleId p : piece)
+  {
+    cloth_.damage.at_rest[p.index] = 1;
+    cloth_.state.velocity[p.index].setZero();
+    cloth_.refreshInverseMass(p);
+    cloth_.mesh.forEachTriangleAt(p,
+                                  [&](TriangleId t)
+                                  {
+                                    for (SpringId s : cloth_.mesh.triangle(t).springs)
+                                    {
+                                      cloth_.springs.release(s);
+                                      cloth_.springs.bend_shear[s.index] = SpringLaw{};
+                                    }
+                                  });
+  }
+  ++cloth_.damage.pieces_at_rest;
+}
+
+void Simulation::reset()
+{
+  cloth_ = untorn_;
+  solver_ = makeSolver(params_.solver);
+  stability_ = solver_->checkStability(cloth_.state, cloth_.springs, params_.solver.time_step);
+  grasps_.clear();
+  spheres_.clear();
+  tears_ = {};
+  step_ = 0;
+  ++epoch_;
+}
+
+std::vector<ParticleId> Simulation::within(const GraspRequest& request, double& nearest) const
+{
+  std::vector<ParticleId> inside;
+  ParticleId closest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < cloth_.mesh.particleCount(); ++i)
+  {
+    if (cloth_.attachments[i].pinned() || cloth_.damage.at_rest[i])
+    {
+      continue;
+    }
+    const double squared = (cloth_.state.position[i].cast<double>() - request.point).squaredNorm();
+    if (squared < least)
+    {
+      least = squared;
+      closest = { i };
+    }
+    if (squared <= request.radius * request.radius && request.radius > 0.0)
+    {
+      inside.push_back({ i });
+    }
+  }
+  nearest = std::sqrt(least);
+  if (request.radius == 0.0 && nearest <= params_.max_grasp_distance)
+  {
+    inside.push_back(closest);
+  }
+  return inside;
+}
+
+GraspTaken Simulation::grasp(const GraspRequest& request)
+{
+  std::vector<std::string> found;
+  check(found, "point [m]", request.point, MAX_COORDINATE);
+  check(found, "radius [m]", request.radius, Range::between(0.0, MAX_COORDINATE));
+  check(found, "frame [m]", request.frame.position, MAX_COORDINATE);
+  refuseIf(found);
+
+  GraspTaken taken;
+  const std::vector<ParticleId> inside = within(request, taken.distance);
+  if (inside.empty())
+  {
+    const double reach = request.radius > 0.0 ? request.radius : params_.max_grasp_distance;
+    const std::string limit = request.radius > 0.0 ? "radius" : "max_grasp_distance";
+    throw Refusal("there is no particle within " + text(reach) + " m (" + limit +
+                  ") of the point; the nearest that is not pinned is " + text(taken.distance) +
+                  " m away");
+  }
+  for (ParticleId p : inside)
+  {
+    const Attachment& attachment = cloth_.attachments[p.index];
+    if (attachment.held())
+    {
+      throw Refusal("particle " + std::to_string(p.index) + " is held by grasp " +
+                    std::to_string(attachment.grasp) + ": release that first");
+    }
+  }
+
+  Grasp grasp;
+  grasp.id = next_grasp_++;
+  grasp.pose = request.frame;
+  for (ParticleId p : inside)
+  {
+    grasp.held.push_back(
+        { p, grasp.pose.applyInverse(cloth_.state.position[p.index].cast<double>()) });
+    cloth_.attach(p, { Attachment::Kind::GRASP, grasp.id });
+  }
+  taken.id = grasp.id;
+  taken.held_particles = static_cast<int>(inside.size());
+  grasps_.push_back(std::move(grasp));
+  return taken;
+}
+
+Grasp& Simulation::findGrasp(std::uint64_t id)
+{
+  const auto found =
+      std::find_if(grasps_.begin(), grasps_.end(), [id](const Grasp& g) { return g.id == id; });
+  if (found == grasps_.end())
+  {
+    throw Refusal("there is no grasp " + std::to_string(id));
+  }
+  return *found;
+}
+
+void Simulation::drag(std::uint64_t grasp, const DragTarget& target)
+{
+  Grasp& dragged = findGrasp(grasp);
+  refuseIf(problems(target));
+  dragged.target = target;
+  dragged.target->pose.rotation.normalize();
+}
+
+void Simulation::letGo(const Grasp& grasp)
+{
+  for (const Grasp::Held& held : grasp.held)
+  {
+    const Vec3 velocity = cloth_.state.velocity[held.particle.index];
+    cloth_.attach(held.particle, {});
+    cloth_.state.velocity[held.particle.index] = velocity;
+  }
+}
+
+void Simulation::release(std::uint64_t grasp)
+{
+  const Grasp& held = findGrasp(grasp);
+  letGo(held);
+  grasps_.erase(grasps_.begin() + (&held - grasps_.data()));
+}
+
+int Simulation::releaseAll()
+{
+  for (const Grasp& grasp : grasps_)
+  {
+    letGo(grasp);
+  }
+  const int released = static_cast<int>(grasps_.size());
+  grasps_.clear();
+  return released;
+}
+
+void Simulation::setSpheres(const std::vector<Sphere>& spheres)
+{
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+  {
+    append(found, problems(spheres[i]));
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (spheres[j].id == spheres[i].id)
+      {
+        found.push_back("sphere " + std::to_string(spheres[i].id) + " is there twice");
+      }
+    }
+  }
+  refuseIf(found);
+
+  std::vector<Sphere> next;
+  for (const Sphere& sphere : spheres_)
+  {
+    if (sphere.source == SphereSource::THROWN)
+    {
+      next.push_back(sphere);
+    }
+  }
+  for (const Sphere& set : spheres)
+  {
+    next.push_back(streamed(set));
+  }
+  spheres_ = std::move(next);
+}
+
+Sphere Simulation::streamed(const Sphere& set) const
+{
+  Sphere sphere = set;
+  sphere.source = SphereSource::STREAMED;
+  sphere.time_left = params_.contact.sphere_timeout;
+  sphere.jump = Vec3d::Zero();
+  const auto known = std::find_if(spheres_.begin(), spheres_.end(),
+                                  [&](const Sphere& s)
+                                  { return s.source == SphereSource::STREAMED && s.id == set.id; });
+  if (known != spheres_.end())
+  {
+    // Sweep there within the next step, unless that is no motion any more.
+    const Vec3d jump = set.center - known->center;
+    const double reach = params_.contact.max_sphere_speed * params_.solver.time_step;
+    if (jump.squaredNorm() <= reach * reach)
+    {
+      sphere.center = known->center;
+      sphere.jump = jump;
+    }
+  }
+  return sphere;
+}
+
+std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
+{
+  Sphere sphere;
+  sphere.source = SphereSource::THROWN;
+  sphere.id = next_thrown_;
+  sphere.center = request.center;
+  sphere.velocity = request.velocity;
+  sphere.radius = request.radius;
+  sphere.mass = request.mass;
+  sphere.time_left = request.lifetime;
+  std::vector<std::string> found = problems(sphere);
+  check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, 1e6));
+  refuseIf(found);
+  spheres_.push_back(sphere);
+  return next_thrown_++;
+}
+
+std::vector<TearEvent> Simulation::tearsSince(std::uint64_t first, std::size_t most) const
+{
+  auto from = std::lower_bound(log_.begin(), log_.end(), first,
+                               [](const TearEvent& event, std::uint64_t sequence)
+                               { return event.sequence < sequence; });
+  const std::size_t count = std::min(most, static_cast<std::size_t>(log_.end() - from));
+  return { from, from + static_cast<std::ptrdiff_t>(count) };
+}
+
+std::array<std::uint64_t, 2> Simulation::loggedTears() const
+{
+  return log_.empty() ? std::array<std::uint64_t, 2>{ 1, 0 }
+                      : std::array<std::uint64_t, 2>{ log_.front().sequence, log_.back().sequence };
+}
+
+Snapshot Simulation::snapshot() const
+{
+  Snapshot snapshot{ makeSurface(cloth_), spheres_, grasps_ };
+  snapshot.surface.time = time_;
+  snapshot.surface.step = step_;
+  snapshot.surface.epoch = epoch_;
+  return snapshot;
+}
+
+Summary Simulation::summary() const
+{
+  Summary summary;
+  summary.time = time_;
+  summary.step = step_;
+  summary.epoch = epoch_;
+  summary.revision = revision();
+  summary.tears = tears_;
+  summary.particles = cloth_.mesh.particleCount();
+  summary.springs = cloth_.mesh.springCount();
+  summary.triangles = cloth_.mesh.triangleCount();
+  summary.bend_shear_springs =
+      static_cast<int>(std::count_if(cloth_.rest.bend_length.begin(), cloth_.rest.bend_length.end(),
+                                     [](double length) { return length > 0.0; }));
+  summary.pieces = cloth_.damage.pieces;
+  summary.pieces_at_rest = cloth_.damage.pieces_at_rest;
+  for (double area : cloth_.rest.area)
+  {
+    summary.rest_area += area;
+  }
+  for (double mass : cloth_.rest.mass)
+  {
+    summary.mass += mass;
+  }
+  Tearing reader = tearing_;  // reading needs scratch of its own
+  summary.max_strain = reader.scan(cloth_);
+  const TearReading worst = reader.worst(cloth_);
+  summary.utilisation = worst.utilisation();
+  if (worst.spring.valid())
+  {
+    const auto& ends = cloth_.mesh.spring(worst.spring).particles;
+    summary.utilisation_at =
+        0.5 * (cloth_.state.position[ends[0].index] + cloth_.state.position[ends[1].index])
+                  .cast<double>();
+  }
+  summary.state_hash = stateHash();
+  return summary;
+}
+
+std::uint64_t Simulation::stateHash() const
+{
+  return cloth::stateHash(cloth_, grasps_, spheres_);
+}
+
+}  // namespace cloth

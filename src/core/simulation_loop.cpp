@@ -1,0 +1,199 @@
+// Takes commands, steps, keeps the pace.
+#include "cloth_tearing/core/simulation_loop.h"
+
+#include <algorithm>
+
+namespace cloth
+{
+namespace
+{
+
+/// The loop wakes this often at most when it keeps real time, and does what is due in one go.
+constexpr std::chrono::milliseconds SLICE{ 4 };
+
+/// Time lost beyond this is not made up for: a machine that is too slow runs late, not wild.
+constexpr std::chrono::milliseconds CATCH_UP{ 100 };
+
+/// How often an idle loop looks up although nobody called.
+constexpr std::chrono::seconds IDLE{ 1 };
+
+constexpr std::chrono::milliseconds MEASURE_INTERVAL{ 1000 };
+
+}  // namespace
+
+SimulationLoop::SimulationLoop(std::unique_ptr<Simulation> simulation, const Options& options,
+                               Listener listener)
+    : options_(options)
+    , listener_(std::move(listener))
+    , simulation_(std::move(simulation))
+    , paused_(options.paused)
+    , measured_at_(Clock::now())
+    , measured_time_(simulation_->time())
+    , thread_([this] { run(); })
+{
+}
+
+SimulationLoop::~SimulationLoop()
+{
+  ending_ = true;
+  queue_.close();
+  thread_.join();
+}
+
+void SimulationLoop::run()
+{
+  Clock::time_point due = Clock::now();
+  while (!ending_)
+  {
+    queue_.runAll(*simulation_);
+    if (!requests_.empty())
+    {
+      oneStep();
+    }
+    else if (paused_ || options_.pace == Pace::STEP)
+    {
+      due = Clock::now();
+      queue_.waitUntil(due + IDLE);
+    }
+    else if (options_.pace == Pace::FREE)
+    {
+      oneStep();
+    }
+    else
+    {
+      keepPace(due);
+    }
+    measure();
+  }
+  for (auto& request : requests_)
+  {
+    request->promise.set_exception(std::make_exception_ptr(Busy("busy: the simulation is ending")));
+  }
+}
+
+/// Steps until simulated time has caught up with the clock, or a command waits no longer.
+void SimulationLoop::keepPace(Clock::time_point& due)
+{
+  const auto dt = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(simulation_->params().solver.time_step));
+  const Clock::time_point start = Clock::now();
+  due = std::max(due, start - CATCH_UP);
+  while (due <= start && Clock::now() < start + SLICE && !paused_)
+  {
+    oneStep();
+    due += dt;
+  }
+  if (due > start)
+  {
+    queue_.waitUntil(std::max(due, start + SLICE));
+  }
+}
+
+void SimulationLoop::oneStep()
+{
+  const StepReport report = simulation_->step();
+  if (!report.fault.empty())
+  {
+    paused_ = true;
+  }
+  listener_(*simulation_, report);
+  if (requests_.empty())
+  {
+    return;
+  }
+  Request& request = *requests_.front();
+  if (!report.fault.empty())
+  {
+    cutRequests(report.fault);
+    return;
+  }
+  ++request.answer.steps;
+  --request.left;
+  request.answer.tears += report.tears.size();
+  if (request.left == 0)
+  {
+    answerRequest({});
+  }
+}
+
+void SimulationLoop::answerRequest(const std::string& cut_short)
+{
+  Request& request = *requests_.front();
+  request.answer.cut_short = cut_short;
+  request.answer.time = simulation_->time();
+  request.answer.step = simulation_->stepCount();
+  request.answer.epoch = simulation_->epoch();
+  request.answer.state_hash = simulation_->stateHash();
+  request.promise.set_value(request.answer);
+  requests_.pop_front();
+}
+
+void SimulationLoop::cutRequests(const std::string& why)
+{
+  while (!requests_.empty())
+  {
+    answerRequest(why);
+  }
+}
+
+StepAnswer SimulationLoop::step(std::uint64_t steps)
+{
+  std::future<StepAnswer> answer = call(
+      [&](Simulation&)
+      {
+        if (!paused_ && options_.pace != Pace::STEP)
+        {
+          throw Refusal("the simulation is running: pause it before stepping it");
+        }
+        auto request = std::make_unique<Request>();
+        request->left = steps;
+        auto promised = request->promise.get_future();
+        requests_.push_back(std::move(request));
+        if (steps == 0 && requests_.size() == 1)
+        {
+          answerRequest({});
+        }
+        return promised;
+      });
+  return answer.get();
+}
+
+void SimulationLoop::pause()
+{
+  call([this](Simulation&) { paused_ = true; });
+}
+
+void SimulationLoop::resume()
+{
+  call([this](Simulation&) { paused_ = false; });
+}
+
+void SimulationLoop::reset()
+{
+  call(
+      [this](Simulation& simulation)
+      {
+        cutRequests("the simulation was reset");
+        simulation.reset();
+      });
+}
+
+LoopState SimulationLoop::state() const
+{
+  return { options_.pace, paused_, real_time_factor_ };
+}
+
+void SimulationLoop::measure()
+{
+  const Clock::time_point now = Clock::now();
+  if (now - measured_at_ < MEASURE_INTERVAL)
+  {
+    return;
+  }
+  const double elapsed = std::chrono::duration<double>(now - measured_at_).count();
+  real_time_factor_ = (simulation_->time() - measured_time_) / elapsed;
+  measured_at_ = now;
+  measured_time_ = simulation_->time();
+}
+
+}  // namespace cloth

@@ -1,0 +1,332 @@
+// Swept contact of triangles with spheres, and the floor.
+#include "cloth_tearing/core/sphere_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth_tearing/core/checks.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// Weights of the corners at the point of triangle (a, b, c) nearest to the origin
+/// (Ericson, Real-Time Collision Detection, 5.1.5).
+Vec3 nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Real d1 = -ab.dot(a);
+  const Real d2 = -ac.dot(a);
+  if (d1 <= 0 && d2 <= 0)
+  {
+    return { 1, 0, 0 };
+  }
+  const Real d3 = -ab.dot(b);
+  const Real d4 = -ac.dot(b);
+  if (d3 >= 0 && d4 <= d3)
+  {
+    return { 0, 1, 0 };
+  }
+  const Real vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0)
+  {
+    const Real t = d1 / (d1 - d3);
+    return { 1 - t, t, 0 };
+  }
+  const Real d5 = -ab.dot(c);
+  const Real d6 = -ac.dot(c);
+  if (d6 >= 0 && d5 <= d6)
+  {
+    return { 0, 0, 1 };
+  }
+  const Real vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0)
+  {
+    const Real t = d2 / (d2 - d6);
+    return { 1 - t, 0, t };
+  }
+  const Real va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6)
+  {
+    const Real t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return { 0, 1 - t, t };
+  }
+  const Real sum = va + vb + vc;
+  return sum > 0 ? Vec3(va / sum, vb / sum, vc / sum) : Vec3(1, 0, 0);
+}
+
+/// Where a triangle meets a sphere in one step.
+struct Contact
+{
+  Vec3 weights;  ///< of the corners at the point that touches
+  Vec3 normal;   ///< from the sphere's centre to it
+};
+
+struct Corners
+{
+  std::array<Vec3, 3> start;  ///< relative to the sphere's centre at the start of the step
+  std::array<Vec3, 3> end;    ///< relative to its centre at the end
+
+  Vec3 at(int corner, Real fraction) const
+  {
+    return start[corner] + fraction * (end[corner] - start[corner]);
+  }
+};
+
+/// The first touch within the step, sampled so finely that the sphere's centre cannot pass
+/// through the triangle between two samples.
+/// @return whether they come closer than `reach`
+bool firstTouch(const Corners& corners, Real reach, Contact& contact)
+{
+  Real travel = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    travel = std::max(travel, (corners.end[k] - corners.start[k]).squaredNorm());
+  }
+  const int samples =
+      1 + static_cast<int>(std::min(Real(1000), std::sqrt(travel) / (Real(0.5) * reach)));
+  for (int i = samples == 1 ? 1 : 0; i <= samples; ++i)
+  {
+    const Real fraction = Real(i) / Real(samples);
+    const std::array<Vec3, 3> x = { corners.at(0, fraction), corners.at(1, fraction),
+                                    corners.at(2, fraction) };
+    contact.weights = nearestWeights(x[0], x[1], x[2]);
+    const Vec3 nearest =
+        contact.weights[0] * x[0] + contact.weights[1] * x[1] + contact.weights[2] * x[2];
+    const Real squared = nearest.squaredNorm();
+    if (squared >= reach * reach)
+    {
+      continue;
+    }
+    const Real distance = std::sqrt(squared);
+    // A centre in the plane of the triangle leaves no side to choose: take its front.
+    const Vec3 front = (x[1] - x[0]).cross(x[2] - x[0]);
+    const Vec3 away = distance > Real(1e-3) * reach ? nearest : front;
+    const Real length = std::sqrt(away.squaredNorm());
+    contact.normal = length > 0 ? Vec3(away / length) : Vec3(0, 0, 1);
+    return true;
+  }
+  return false;
+}
+
+/// Axis-aligned overlap of a triangle's swept box with a sphere's.
+bool mayTouch(const ParticleState& state, const Triangle& t, const Vec3& low, const Vec3& high)
+{
+  Vec3 least = state.position[t.particles[0].index];
+  Vec3 most = least;
+  for (ParticleId p : t.particles)
+  {
+    least = least.cwiseMin(state.position[p.index]).cwiseMin(state.previous[p.index]);
+    most = most.cwiseMax(state.position[p.index]).cwiseMax(state.previous[p.index]);
+  }
+  return (least.array() <= high.array()).all() && (most.array() >= low.array()).all();
+}
+
+/// Velocity change that keeps two things from approaching along `normal`, and rubs.
+Vec3 velocityChange(const Vec3& relative, const Vec3& normal, Real friction)
+{
+  const Real approach = -relative.dot(normal);
+  if (!(approach > 0))
+  {
+    return Vec3::Zero();
+  }
+  const Vec3 slip = relative + approach * normal;
+  const Real slip_speed = std::sqrt(slip.squaredNorm());
+  const Real rubbed = std::min(slip_speed, friction * approach);
+  return approach * normal - (slip_speed > 0 ? Vec3(rubbed / slip_speed * slip) : Vec3::Zero());
+}
+
+void resolveFloor(Cloth& cloth, const ContactParams& params)
+{
+  const auto height = static_cast<Real>(params.floor_height + params.thickness);
+  const auto friction = static_cast<Real>(params.floor_friction);
+  ParticleState& state = cloth.state;
+  for (int i = 0; i < state.size(); ++i)
+  {
+    if (state.position[i].z() < height && state.inverse_mass[i] > 0)
+    {
+      state.position[i].z() = height;
+      state.velocity[i] += velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
+    }
+  }
+}
+
+void rollOnFloor(Sphere& sphere, const ContactParams& params)
+{
+  const double height = params.floor_height + sphere.radius;
+  if (params.floor && sphere.center.z() < height)
+  {
+    sphere.center.z() = height;
+    sphere.velocity.z() = std::max(0.0, sphere.velocity.z());
+  }
+}
+
+bool within(const Vec3d& x, const Vec3d& low, const Vec3d& high)
+{
+  return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const ContactParams& params)
+{
+  std::vector<std::string> found;
+  check(found, "friction [-]", params.friction, Range::between(0.0, 10.0));
+  check(found, "thickness [m]", params.thickness, Range::aboveUpTo(0.0, 1.0));
+  check(found, "push_speed [m/s]", params.push_speed, Range::aboveUpTo(0.0, 100.0));
+  check(found, "floor_height [m]", params.floor_height,
+        Range::between(-MAX_COORDINATE, MAX_COORDINATE));
+  check(found, "floor_friction [-]", params.floor_friction, Range::between(0.0, 10.0));
+  check(found, "bounds_min [m]", params.bounds_min, MAX_COORDINATE);
+  check(found, "bounds_max [m]", params.bounds_max, MAX_COORDINATE);
+  if (!(params.bounds_min.array() < params.bounds_max.array()).all())
+  {
+    found.push_back("bounds_min [m] must be less than bounds_max on every axis");
+  }
+  check(found, "max_sphere_speed [m/s]", params.max_sphere_speed, Range::aboveUpTo(0.0, 1000.0));
+  check(found, "sphere_timeout [s]", params.sphere_timeout, Range::between(0.0, 1e6));
+  return found;
+}
+
+std::vector<std::string> problems(const Sphere& sphere)
+{
+  std::vector<std::string> found;
+  const std::string name = "sphere " + std::to_string(sphere.id) + ": ";
+  check(found, name + "center [m]", sphere.center, MAX_COORDINATE);
+  check(found, name + "velocity [m/s]", sphere.velocity, 1000.0);
+  check(found, name + "radius [m]", sphere.radius, Range::between(1e-4, 100.0));
+  check(found, name + "mass [kg]", sphere.mass, Range::between(0.0, 1e6));
+  return found;
+}
+
+void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
+                 const Environment& environment, double dt)
+{
+  for (Sphere& sphere : spheres)
+  {
+    sphere.previous = sphere.center;
+    sphere.center += sphere.jump;
+    sphere.jump.setZero();
+    const bool moves = sphere.source == SphereSource::THROWN || sphere.time_left > 0.0;
+    if (moves && sphere.mass > 0.0)
+    {
+      sphere.velocity += dt * environment.gravity;
+    }
+    if (moves)
+    {
+      sphere.center += dt * sphere.velocity;
+    }
+    else
+    {
+      sphere.velocity.setZero();
+    }
+    if (sphere.mass > 0.0)
+    {
+      rollOnFloor(sphere, params);
+    }
+    sphere.time_left -= dt;
+  }
+  const auto gone = [&](const Sphere& s)
+  {
+    return s.source == SphereSource::THROWN &&
+           (s.time_left <= 0.0 || !within(s.center, params.bounds_min, params.bounds_max));
+  };
+  spheres.erase(std::remove_if(spheres.begin(), spheres.end(), gone), spheres.end());
+}
+
+void SphereContact::resolve(Cloth& cloth, std::vector<Sphere>& spheres, const ContactParams& params,
+                            double dt)
+{
+  for (Sphere& sphere : spheres)
+  {
+    resolveSphere(cloth, sphere, params, dt);
+  }
+  if (params.floor)
+  {
+    resolveFloor(cloth, params);
+  }
+}
+
+void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params,
+                                  double dt)
+{
+  ParticleState& state = cloth.state;
+  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
+  const Vec3 start = sphere.previous.cast<Real>();
+  const Vec3 end = sphere.center.cast<Real>();
+  const Vec3 low = start.cwiseMin(end).array() - reach;
+  const Vec3 high = start.cwiseMax(end).array() + reach;
+  near_.clear();
+  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
+  {
+    const Triangle& t = cloth.mesh.triangle({ i });
+    if (mayTouch(state, t, low, high) && !cloth.damage.at_rest[t.particles[0].index])
+    {
+      near_.push_back({ i });
+    }
+  }
+
+  const auto h = static_cast<Real>(dt);
+  const auto friction = static_cast<Real>(params.friction);
+  const Real sphere_inverse_mass =
+      sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
+  for (TriangleId id : near_)
+  {
+    const auto& p = cloth.mesh.triangle(id).particles;
+    Corners corners;
+    for (int k = 0; k < 3; ++k)
+    {
+      corners.start[k] = state.previous[p[k].index] - start;
+      corners.end[k] = state.position[p[k].index] - end;
+    }
+    Contact contact;
+    if (!firstTouch(corners, reach, contact))
+    {
+      continue;
+    }
+    Real yielding = sphere_inverse_mass;  // inverse mass that feels a push at the contact
+    Vec3 velocity = -sphere.velocity.cast<Real>();
+    Real gap = -reach;
+    Real approach = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Real w = contact.weights[k];
+      yielding += w * w * state.inverse_mass[p[k].index];
+      velocity += w * state.velocity[p[k].index];
+      gap += w * contact.normal.dot(corners.end[k]);
+      approach += w * contact.normal.dot(corners.start[k] - corners.end[k]);
+    }
+    if (!(yielding > 0) || gap >= 0)
+    {
+      continue;
+    }
+    const Real push =
+        std::min(-gap, static_cast<Real>(params.push_speed) * h + std::max(Real(0), approach));
+    const Vec3 change = velocityChange(velocity, contact.normal, friction);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Real share = contact.weights[k] * state.inverse_mass[p[k].index] / yielding;
+      state.position[p[k].index] += (share * push) * contact.normal;
+      state.velocity[p[k].index] += share * change;
+    }
+    if (sphere.mass > 0.0)
+    {
+      sphere.center -= (sphere_inverse_mass / yielding * push * contact.normal).cast<double>();
+      sphere.velocity -= (sphere_inverse_mass / yielding * change).cast<double>();
+    }
+  }
+}
+
+bool isInsideObstacle(const Vec3& point, const std::vector<Sphere>& spheres,
+                      const ContactParams& params)
+{
+  const Vec3d x = point.cast<double>();
+  const auto holds = [&](const Sphere& s)
+  { return (x - s.center).squaredNorm() < s.radius * s.radius; };
+  return (params.floor && x.z() < params.floor_height) ||
+         std::any_of(spheres.begin(), spheres.end(), holds);
+}
+
+}  // namespace cloth

@@ -1,0 +1,84 @@
+// Stiffness, damping and ends of every spring, from mesh, rest shape and material.
+#include "cloth_tearing/core/spring_table.h"
+
+namespace cloth
+{
+namespace
+{
+
+void refreshSpring(SpringTable& table, const Mesh& mesh, const RestShape& rest,
+                   const Material& material, SpringId s)
+{
+  const double area = adjacentArea(mesh, rest, s);
+  const Spring& spring = mesh.spring(s);
+  SpringLaw& structural = table.structural[s.index];
+  const bool released = structural.rest > 0 && !structural.active();
+  const double length = rest.length[s.index];
+  structural.rest = static_cast<Real>(length);
+  structural.stiffness = static_cast<Real>(material.stiffness * area / (length * length));
+  structural.damping = static_cast<Real>(material.damping * area / (length * length));
+  if (!released)
+  {
+    structural.a = spring.particles[0].index;
+    structural.b = spring.particles[1].index;
+  }
+
+  SpringLaw& bend = table.bend_shear[s.index];
+  bend = SpringLaw{};
+  const double reach = rest.bend_length[s.index];
+  if (reach > 0.0)
+  {
+    const double share = material.bend_shear_stiffness / material.stiffness;
+    bend.a = mesh.opposite(s, 0).index;
+    bend.b = mesh.opposite(s, 1).index;
+    bend.rest = static_cast<Real>(reach);
+    bend.stiffness = static_cast<Real>(material.bend_shear_stiffness * area / (reach * reach));
+    bend.damping = static_cast<Real>(share * material.damping * area / (reach * reach));
+  }
+}
+
+}  // namespace
+
+double adjacentArea(const Mesh& mesh, const RestShape& rest, SpringId s)
+{
+  double area = 0.0;
+  for (TriangleId t : mesh.spring(s).triangles)
+  {
+    area += t.valid() ? rest.area[t.index] : 0.0;
+  }
+  return area;
+}
+
+void SpringTable::refresh(const Mesh& mesh, const RestShape& rest, const Material& material,
+                          const std::vector<TriangleId>& triangles)
+{
+  structural.resize(mesh.springCount());
+  bend_shear.resize(mesh.springCount());
+  for (TriangleId t : triangles)
+  {
+    for (SpringId s : mesh.triangle(t).springs)
+    {
+      refreshSpring(*this, mesh, rest, material, s);
+    }
+  }
+}
+
+void SpringTable::release(SpringId s)
+{
+  structural[s.index].a = -1;
+  structural[s.index].b = -1;
+}
+
+SpringTable makeSpringTable(const Mesh& mesh, const RestShape& rest, const Material& material)
+{
+  SpringTable table;
+  table.structural.resize(mesh.springCount());
+  table.bend_shear.resize(mesh.springCount());
+  for (int i = 0; i < mesh.springCount(); ++i)
+  {
+    refreshSpring(table, mesh, rest, material, SpringId{ i });
+  }
+  return table;
+}
+
+}  // namespace cloth

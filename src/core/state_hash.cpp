@@ -1,0 +1,118 @@
+// Mixes the state word by word.
+#include "cloth_tearing/core/state_hash.h"
+
+#include <cstring>
+
+namespace cloth
+{
+namespace
+{
+
+class Hash
+{
+public:
+  void add(std::uint64_t word)
+  {
+    value_ = (value_ ^ word) * 0x100000001b3ull;  // FNV-1a over words, with the high half folded in
+    value_ ^= value_ >> 32;
+  }
+  void add(int word) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(word))); }
+  void add(double word)
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, &word, sizeof bits);
+    add(bits);
+  }
+  void add(const Vec3& v)
+  {
+    std::uint32_t bits[3];
+    std::memcpy(bits, v.data(), sizeof bits);
+    add(static_cast<std::uint64_t>(bits[0]) << 32 | bits[1]);
+    add(static_cast<std::uint64_t>(bits[2]));
+  }
+  void add(const Vec3d& v)
+  {
+    add(v.x());
+    add(v.y());
+    add(v.z());
+  }
+  void add(const Quatd& q)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      add(q.coeffs()[i]);
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+private:
+  std::uint64_t value_ = 0xcbf29ce484222325ull;
+};
+
+void addParticles(Hash& hash, const Cloth& cloth)
+{
+  for (int i = 0; i < cloth.mesh.particleCount(); ++i)
+  {
+    hash.add(cloth.state.position[i]);
+    hash.add(cloth.state.velocity[i]);
+    hash.add(cloth.damage.weak[i] | cloth.damage.hinge[i] << 1 | cloth.damage.at_rest[i] << 2 |
+             static_cast<int>(cloth.attachments[i].kind) << 3);
+    hash.add(cloth.attachments[i].grasp);
+  }
+}
+
+void addTopology(Hash& hash, const Cloth& cloth)
+{
+  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
+  {
+    const Triangle& t = cloth.mesh.triangle({ i });
+    for (int k = 0; k < 3; ++k)
+    {
+      hash.add(t.particles[k].index);
+      hash.add(t.springs[k].index);
+      hash.add(t.uv[k].x());
+      hash.add(t.uv[k].y());
+    }
+  }
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    hash.add(cloth.rest.length[i]);
+    hash.add(static_cast<int>(cloth.damage.released[i]));
+  }
+}
+
+void addWorld(Hash& hash, const std::vector<Grasp>& grasps, const std::vector<Sphere>& spheres)
+{
+  for (const Grasp& grasp : grasps)
+  {
+    hash.add(grasp.id);
+    hash.add(grasp.pose.position);
+    hash.add(grasp.pose.rotation);
+    hash.add(static_cast<int>(grasp.held.size()));
+    hash.add(grasp.target ? 1 : 0);
+  }
+  for (const Sphere& sphere : spheres)
+  {
+    hash.add(sphere.id);
+    hash.add(static_cast<int>(sphere.source));
+    hash.add(sphere.center);
+    hash.add(sphere.velocity);
+    hash.add(sphere.radius);
+    hash.add(sphere.mass);
+    hash.add(sphere.time_left);
+  }
+}
+
+}  // namespace
+
+std::uint64_t stateHash(const Cloth& cloth, const std::vector<Grasp>& grasps,
+                        const std::vector<Sphere>& spheres)
+{
+  Hash hash;
+  addParticles(hash, cloth);
+  addTopology(hash, cloth);
+  addWorld(hash, grasps, spheres);
+  return hash.value();
+}
+
+}  // namespace cloth

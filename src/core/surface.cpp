@@ -1,0 +1,94 @@
+// Takes the snapshot.
+#include "cloth_tearing/core/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cloth
+{
+namespace
+{
+
+void addTriangles(const Cloth& cloth, Surface& surface)
+{
+  surface.normal.assign(cloth.mesh.particleCount(), Vec3::Zero());
+  surface.triangles.reserve(cloth.mesh.triangleCount());
+  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
+  {
+    const Triangle& t = cloth.mesh.triangle({ i });
+    const std::array<int, 3> p = { t.particles[0].index, t.particles[1].index,
+                                   t.particles[2].index };
+    if (cloth.damage.at_rest[p[0]])
+    {
+      continue;
+    }
+    surface.triangles.push_back({ p, t.uv });
+    const auto& x = cloth.state.position;
+    const Vec3 normal = (x[p[1]] - x[p[0]]).cross(x[p[2]] - x[p[0]]);  // twice the area long
+    for (int corner : p)
+    {
+      surface.normal[corner] += normal;
+    }
+  }
+  for (Vec3& normal : surface.normal)
+  {
+    const Real length = std::sqrt(normal.squaredNorm());
+    normal = length > 0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
+  }
+}
+
+void addSprings(const Cloth& cloth, Surface& surface)
+{
+  surface.strain.assign(cloth.mesh.particleCount(), Real(0));
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    const SpringId s{ i };
+    const Spring& spring = cloth.mesh.spring(s);
+    const std::array<int, 2> ends = { spring.particles[0].index, spring.particles[1].index };
+    if (cloth.damage.at_rest[ends[0]])
+    {
+      continue;
+    }
+    if (cloth.springs.structural[i].active())
+    {
+      const auto strain = static_cast<Real>(cloth.strain(s));
+      surface.strain[ends[0]] = std::max(surface.strain[ends[0]], strain);
+      surface.strain[ends[1]] = std::max(surface.strain[ends[1]], strain);
+    }
+    if (spring.border() && !cloth.damage.outer[i])
+    {
+      surface.torn_edges.push_back(ends);
+    }
+  }
+}
+
+void addParticles(const Cloth& cloth, Surface& surface)
+{
+  surface.position = cloth.state.position;
+  surface.parents = cloth.damage.parents;
+  for (int i = 0; i < cloth.mesh.particleCount(); ++i)
+  {
+    if (cloth.damage.weak[i] && !cloth.damage.at_rest[i])
+    {
+      surface.weak_points.push_back(i);
+    }
+    if (cloth.attachments[i].held())
+    {
+      surface.held.push_back({ i, cloth.attachments[i].grasp });
+    }
+  }
+}
+
+}  // namespace
+
+Surface makeSurface(const Cloth& cloth)
+{
+  Surface surface;
+  surface.revision = cloth.damage.tears;
+  addParticles(cloth, surface);
+  addTriangles(cloth, surface);
+  addSprings(cloth, surface);
+  return surface;
+}
+
+}  // namespace cloth

@@ -1,0 +1,504 @@
+// Thresholds, order and the edits of a tear.
+#include "cloth_tearing/core/tearing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cloth
+{
+namespace
+{
+
+/// How far a one-point tear may shift its copy, as a fraction of the rest length (3.2.3).
+constexpr double LARGEST_SHIFT = 0.25;
+
+bool worseFirst(const TearReading& a, const TearReading& b)
+{
+  return a.utilisation() != b.utilisation() ? a.utilisation() > b.utilisation()
+                                            : a.spring < b.spring;
+}
+
+double tension(const Cloth& cloth, SpringId s)
+{
+  const SpringLaw& law = cloth.springs.structural[s.index];
+  return law.stiffness * cloth.strain(s) * cloth.rest.length[s.index];
+}
+
+/// The texture position of `p` in one of its triangles.
+Vec2d textureAt(const Mesh& mesh, TriangleId t, ParticleId p)
+{
+  const Triangle& triangle = mesh.triangle(t);
+  return triangle.uv[triangle.cornerOf(p)];
+}
+
+/// How many corners of the triangles at `p`, `p` apart, belong to grasp `grasp`.
+int heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
+{
+  int held = 0;
+  cloth.mesh.forEachTriangleAt(p,
+                               [&](TriangleId t)
+                               {
+                                 for (ParticleId q : cloth.mesh.triangle(t).particles)
+                                 {
+                                   const Attachment& attachment = cloth.attachments[q.index];
+                                   held += q != p && attachment.kind == Attachment::Kind::GRASP &&
+                                           attachment.grasp == grasp;
+                                 }
+                               });
+  return held;
+}
+
+/// A tear ends at `p` now and may run on, unless it is pinned, or hangs by one point there.
+void weaken(Cloth& cloth, ParticleId p)
+{
+  const bool can = !cloth.attachments[p.index].pinned() && !cloth.damage.hinge[p.index];
+  cloth.damage.weak[p.index] = can ? 1 : 0;
+}
+
+}  // namespace
+
+double Tearing::hemFactor(const Cloth& cloth, SpringId s) const
+{
+  const auto& ends = cloth.mesh.spring(s).particles;
+  const bool hem = cloth.damage.hem[ends[0].index] || cloth.damage.hem[ends[1].index];
+  return hem ? rules_.hem_factor : 1.0;
+}
+
+double Tearing::weakFactor(const Cloth& cloth, SpringId s) const
+{
+  const double band = std::sqrt(rules_.crack_length / cloth.rest.length[s.index]);
+  return hemFactor(cloth, s) * std::max(1.0, band);
+}
+
+std::vector<Tearing::Option> Tearing::options(const Cloth& cloth, SpringId s) const
+{
+  std::vector<Option> found;
+  for (ParticleId p : cloth.mesh.spring(s).particles)
+  {
+    if (cloth.attachments[p.index].pinned())
+    {
+      continue;  // never doubled: the load moves on
+    }
+    const double factor = weakFactor(cloth, s);
+    if (cloth.damage.hinge[p.index])
+    {
+      found.push_back({ TearKind::ONE_POINT, p, factor * rules_.one_point_tear_strain, 0.0 });
+    }
+    else if (cloth.damage.weak[p.index])
+    {
+      found.push_back({ TearKind::WEAK_POINT, p, factor * rules_.weak_tear_strain, 0.0 });
+    }
+  }
+  if (found.size() == 2)
+  {
+    for (Option& option : found)
+    {
+      option.resistance = resistanceAt(cloth, option.at, s);
+    }
+    const auto preferred = [](const Option& a, const Option& b)
+    {
+      if (a.kind != b.kind)
+      {
+        return a.kind == TearKind::ONE_POINT;
+      }
+      return a.resistance != b.resistance ? a.resistance > b.resistance : a.at < b.at;
+    };
+    std::sort(found.begin(), found.end(), preferred);
+  }
+  return found;
+}
+
+TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
+{
+  TearReading reading{ s, TearKind::BASIC, own, hemFactor(cloth, s) * rules_.tear_strain };
+  const auto& ends = cloth.mesh.spring(s).particles;
+  const auto vulnerable = [&](ParticleId p)
+  { return cloth.damage.hinge[p.index] || cloth.damage.weak[p.index]; };
+  if (vulnerable(ends[0]) || vulnerable(ends[1]))
+  {
+    const std::vector<Option> ways = options(cloth, s);
+    for (std::size_t i = 0; i < ways.size(); ++i)
+    {
+      if (i == 0 || ways[i].threshold < reading.threshold)
+      {
+        reading.kind = ways[i].kind;
+        reading.threshold = ways[i].threshold;
+      }
+    }
+  }
+  if (reading.kind == TearKind::BASIC && own > reading.threshold)
+  {
+    reading.strain = patch_.read(cloth, s, rules_.tear_radius);
+  }
+  return reading;
+}
+
+double Tearing::scan(const Cloth& cloth)
+{
+  const double least =
+      std::min({ rules_.tear_strain, rules_.weak_tear_strain, rules_.one_point_tear_strain });
+  found_.clear();
+  double most = 0.0;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    if (!cloth.springs.structural[i].active())
+    {
+      continue;
+    }
+    const SpringId s{ i };
+    const double own = cloth.strain(s);
+    most = own > most || !(own == own) ? own : most;  // a NaN must not hide
+    if (rules_.enabled && own > least)
+    {
+      const TearReading reading = read(cloth, s, own);
+      if (reading.utilisation() > 1.0)
+      {
+        found_.push_back(reading);
+      }
+    }
+  }
+  std::sort(found_.begin(), found_.end(), worseFirst);
+  return most;
+}
+
+std::vector<TearEvent> Tearing::tear(Cloth& cloth, std::vector<Grasp>& grasps,
+                                     const Blocked& blocked, int& postponed)
+{
+  std::vector<TearEvent> events;
+  postponed = 0;
+  if (found_.empty())
+  {
+    return events;
+  }
+  ++pass_;
+  touched_.resize(cloth.mesh.particleCount(), 0);
+  grasps_ = &grasps;
+  for (const TearReading& reading : found_)
+  {
+    const bool full = static_cast<int>(events.size()) >= rules_.max_tears_per_step;
+    if (full || touched(cloth, reading.spring))
+    {
+      ++postponed;
+      continue;
+    }
+    TearEvent event;
+    event.spring = reading.spring;
+    event.tension = tension(cloth, reading.spring);
+    if (tearSpring(cloth, reading.spring, blocked, event))
+    {
+      events.push_back(std::move(event));
+    }
+  }
+  grasps_ = nullptr;
+  found_.clear();
+  return events;
+}
+
+bool Tearing::touched(const Cloth& cloth, SpringId s) const
+{
+  const auto& ends = cloth.mesh.spring(s).particles;
+  return touched_[ends[0].index] == pass_ || touched_[ends[1].index] == pass_;
+}
+
+bool Tearing::tearSpring(Cloth& cloth, SpringId s, const Blocked& blocked, TearEvent& event)
+{
+  const double own = cloth.strain(s);
+  const std::vector<Option> ways = options(cloth, s);
+  bool held = ways.empty();  // a weak spring tears as sound cloth only where it has no way to go
+  for (const Option& way : ways)
+  {
+    if (own <= way.threshold)
+    {
+      continue;
+    }
+    event.strain = own;
+    event.threshold = way.threshold;
+    if (way.kind == TearKind::ONE_POINT)
+    {
+      tearOnePoint(cloth, s, way.at, blocked, event);
+      return true;
+    }
+    if (const auto path = findTearPath(cloth, way.at, s))
+    {
+      tearAlong(cloth, way.at, *path, event);
+      return true;
+    }
+    held = held || resistanceAt(cloth, way.at, s) > 0.0;
+  }
+  return held && tearSound(cloth, s, event);
+}
+
+bool Tearing::tearSound(Cloth& cloth, SpringId s, TearEvent& event)
+{
+  event.strain = patch_.read(cloth, s, rules_.tear_radius);
+  event.threshold = hemFactor(cloth, s) * rules_.tear_strain;
+  if (event.strain <= event.threshold)
+  {
+    return false;
+  }
+  if (canSplit(cloth, s))
+  {
+    tearAcross(cloth, s, event);
+    return true;
+  }
+  // Too fine to split: part the cloth along its springs, at the end that resists more.
+  std::optional<TearPath> best;
+  ParticleId at;
+  for (ParticleId p : cloth.mesh.spring(s).particles)
+  {
+    const auto path =
+        cloth.attachments[p.index].pinned() ? std::nullopt : findTearPath(cloth, p, s);
+    if (path && (!best || path->resistance > best->resistance))
+    {
+      best = path;
+      at = p;
+    }
+  }
+  if (best)
+  {
+    tearAlong(cloth, at, *best, event);
+  }
+  else
+  {
+    release(cloth, s, event);
+  }
+  return true;
+}
+
+bool Tearing::canSplit(const Cloth& cloth, SpringId s) const
+{
+  const double half = 0.5 * cloth.rest.length[s.index];
+  for (TriangleId t : cloth.mesh.spring(s).triangles)
+  {
+    if (!t.valid())
+    {
+      continue;
+    }
+    const Triangle& triangle = cloth.mesh.triangle(t);
+    const int side = triangle.sideOf(s);
+    const double a = cloth.rest.length[triangle.springs[(side + 1) % 3].index];
+    const double b = cloth.rest.length[triangle.springs[(side + 2) % 3].index];
+    const double median = medianLength(a, b, 2.0 * half);
+    const double altitude = cloth.rest.area[t.index] /
+                            std::max({ half, a, b, median });  // of a half: 2 (area / 2) / side
+    const double spacing = cloth.rest.spacing[t.index];
+    if (half < rules_.min_length * spacing || median < rules_.min_length * spacing ||
+        altitude < rules_.min_altitude * spacing)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Tearing::tearAcross(Cloth& cloth, SpringId s, TearEvent& event)
+{
+  const Spring torn = cloth.mesh.spring(s);
+  const std::array<ParticleId, 2> corners = { cloth.mesh.opposite(s, 0),
+                                              cloth.mesh.opposite(s, 1) };
+  const int a = torn.particles[0].index;
+  const int b = torn.particles[1].index;
+  ParticleState& state = cloth.state;
+  event.kind = TearKind::BASIC;
+  event.position = 0.5 * (state.position[a] + state.position[b]).cast<double>();
+  event.uv = 0.5 * (textureAt(cloth.mesh, torn.triangles[0], torn.particles[0]) +
+                    textureAt(cloth.mesh, torn.triangles[0], torn.particles[1]));
+
+  // Each split point goes to rest half-length from its own end (figure 3.9).
+  const Vec3 along = state.position[b] - state.position[a];
+  const double length = along.cast<double>().norm();
+  const auto fraction = static_cast<Real>(0.5 * cloth.rest.length[s.index] / length);
+  const Vec3 slip = state.velocity[b] - state.velocity[a];
+
+  const Edit edit = cloth.mesh.splitSpring(s);
+  cloth.follow(edit);
+  const int near = edit.particles[0].id.index;
+  const int far = edit.particles[1].id.index;
+  state.position[near] = state.position[a] + fraction * along;
+  state.position[far] = state.position[b] - fraction * along;
+  state.velocity[near] = state.velocity[a] + fraction * slip;
+  state.velocity[far] = state.velocity[b] - fraction * slip;
+  for (ParticleId corner : corners)
+  {
+    if (corner.valid())
+    {
+      weaken(cloth, corner);
+    }
+  }
+  conclude(cloth, edit, event);
+}
+
+void Tearing::tearAlong(Cloth& cloth, ParticleId p, const TearPath& path, TearEvent& event)
+{
+  std::vector<ParticleId> far_ends;
+  for (SpringId s : path.springs)
+  {
+    far_ends.push_back(cloth.mesh.spring(s).other(p));
+  }
+  const bool sound = path.springs.size() == 2;
+  event.kind = sound ? TearKind::BASIC : TearKind::WEAK_POINT;
+  event.path = path.springs.front();
+  event.position = cloth.state.position[p.index].cast<double>();
+  event.uv = textureAt(cloth.mesh, cloth.mesh.spring(event.path).triangles[0], p);
+
+  const Edit edit = sound ? cloth.mesh.openAlong(p, path.springs[0], path.springs[1])
+                          : cloth.mesh.detachAlong(p, path.springs[0]);
+  cloth.follow(edit);
+  cloth.damage.weak[p.index] = 0;  // figure 3.17: the tear has moved on
+  for (ParticleId end : far_ends)
+  {
+    weaken(cloth, end);
+  }
+  keepHeld(cloth, edit, event.spring);
+  conclude(cloth, edit, event);
+}
+
+void Tearing::tearOnePoint(Cloth& cloth, SpringId s, ParticleId p, const Blocked& blocked,
+                           TearEvent& event)
+{
+  const TriangleId pulled = cloth.mesh.spring(s).triangles[0];
+  event.kind = TearKind::ONE_POINT;
+  event.position = cloth.state.position[p.index].cast<double>();
+  event.uv = textureAt(cloth.mesh, pulled, p);
+
+  const Edit edit = cloth.mesh.detachFan(p, pulled);
+  cloth.follow(edit);
+  cloth.damage.weak[p.index] = 0;
+  keepHeld(cloth, edit, s);
+  const ParticleId copy = edit.particles.front().id;
+  relieve(cloth, s, copy, blocked);
+  if (const auto loose = pieces_.parted(cloth.mesh, p, copy))
+  {
+    ++cloth.damage.pieces;
+    for (ParticleId q : *loose)
+    {
+      event.loose_mass += cloth.rest.mass[q.index];
+    }
+    event.loose_area = event.loose_mass / cloth.rest.areal_density;
+  }
+  conclude(cloth, edit, event);
+}
+
+void Tearing::release(Cloth& cloth, SpringId s, TearEvent& event)
+{
+  const auto& ends = cloth.mesh.spring(s).particles;
+  const TriangleId t = cloth.mesh.spring(s).triangles[0];
+  event.kind = TearKind::RELEASED;
+  event.position =
+      0.5 *
+      (cloth.state.position[ends[0].index] + cloth.state.position[ends[1].index]).cast<double>();
+  event.uv = 0.5 * (textureAt(cloth.mesh, t, ends[0]) + textureAt(cloth.mesh, t, ends[1]));
+  cloth.springs.release(s);
+  cloth.damage.released[s.index] = 1;
+  ++cloth.damage.tears;
+  event.pieces = cloth.damage.pieces;
+}
+
+/// Draws the copy of a one-point tear along the pull if its spring would tear again at once
+/// (3.2.3), a little and never into an obstacle.
+void Tearing::relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const
+{
+  const double excess = cloth.strain(s) - rules_.weak_tear_strain;
+  if (excess <= 0.0 || cloth.attachments[copy.index].held())
+  {
+    return;
+  }
+  const double shift = std::min(excess, LARGEST_SHIFT) * cloth.rest.length[s.index];
+  const Vec3 pull = cloth.direction(s, copy);
+  const Vec3 place =
+      cloth.state.position[copy.index] + static_cast<Real>(shift) / pull.norm() * pull;
+  if (!blocked(place))
+  {
+    cloth.state.position[copy.index] = place;
+  }
+}
+
+/// A held particle that was doubled stays held on the side with more of the gripper's particles;
+/// if there is none such, on the side that the pull does not take away.
+void Tearing::keepHeld(Cloth& cloth, const Edit& edit, SpringId stretched)
+{
+  const ParticleId p = edit.particles.front().parents[0];
+  const ParticleId copy = edit.particles.front().id;
+  const Attachment attachment = cloth.attachments[p.index];
+  if (attachment.kind != Attachment::Kind::GRASP)
+  {
+    return;
+  }
+  const int here = heldNeighbours(cloth, p, attachment.grasp);
+  const int there = heldNeighbours(cloth, copy, attachment.grasp);
+  const bool pulled_here = cloth.mesh.spring(stretched).joins(p);
+  if (there < here || (there == here && !pulled_here))
+  {
+    return;
+  }
+  cloth.attach(p, {});
+  cloth.attach(copy, attachment);
+  for (Grasp& grasp : *grasps_)
+  {
+    for (Grasp::Held& held : grasp.held)
+    {
+      held.particle = held.particle == p ? copy : held.particle;
+    }
+  }
+}
+
+void Tearing::conclude(Cloth& cloth, const Edit& edit, TearEvent& event)
+{
+  for (const auto& added : edit.particles)
+  {
+    event.particles.push_back({ added.id, added.parents });
+  }
+  event.triangles = edit.touched;
+  event.pieces = cloth.damage.pieces;
+
+  touched_.resize(cloth.mesh.particleCount(), 0);
+  for (TriangleId t : edit.touched)
+  {
+    for (ParticleId p : cloth.mesh.triangle(t).particles)
+    {
+      touched_[p.index] = pass_;
+    }
+  }
+  for (const auto& added : edit.particles)
+  {
+    touched_[added.parents[0].index] = pass_;
+  }
+}
+
+TearReading Tearing::worst(const Cloth& cloth)
+{
+  // A reading is at most the spring's own strain over its threshold: look in that order.
+  std::vector<TearReading> bounds;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    if (cloth.springs.structural[i].active())
+    {
+      const SpringId s{ i };
+      const double own = cloth.strain(s);
+      TearReading bound = read(cloth, s, std::min(own, 0.0));
+      bound.strain = own;
+      bounds.push_back(bound);
+    }
+  }
+  const auto lower = [](const TearReading& a, const TearReading& b) { return worseFirst(b, a); };
+  std::make_heap(bounds.begin(), bounds.end(), lower);
+  TearReading best;
+  best.threshold = 1.0;
+  while (!bounds.empty() && bounds.front().utilisation() > best.utilisation())
+  {
+    TearReading candidate = bounds.front();
+    std::pop_heap(bounds.begin(), bounds.end(), lower);
+    bounds.pop_back();
+    if (candidate.kind == TearKind::BASIC)
+    {
+      candidate.strain = patch_.read(cloth, candidate.spring, rules_.tear_radius);
+    }
+    if (candidate.utilisation() > best.utilisation())
+    {
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace cloth
