@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Counts test cases, not test programs, after a run of ctest: passed, failed, skipped.
 
-Reads ctest's JUnit report and, for each gtest or rostest in it, the result files that the program
-itself wrote. A program that crashed, hung, was not run, or left no test case behind counts as one
-failed case. Prints every failed case and every reason to skip, then the counts alone on a line.
-Ends with 0 only if something passed and nothing failed.
+Goes through the tests that are registered (ctest --show-only=json-v1), looks up what ctest reported
+about each (ctest --output-junit) and, for a gtest or a rostest, what the program itself wrote. A
+program that crashed, hung, was not run, or left no test case behind counts as one failed case.
+Prints every failed case and every reason to skip, then the counts alone on a line. Ends with 0 only
+if something passed and nothing failed.
 """
 
 import argparse
 import collections
+import json
 import pathlib
 import re
 import sys
@@ -61,36 +63,32 @@ def count_cases(path, count, failed, reasons):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("registered", type=pathlib.Path, help="what ctest --show-only=json-v1 said")
     parser.add_argument("report", type=pathlib.Path, help="what ctest --output-junit wrote")
-    parser.add_argument("results", type=pathlib.Path, help="catkin's folder of test results")
+    parser.add_argument("results", type=pathlib.Path, help="the package's folder of test results")
     arguments = parser.parse_args()
+
+    registered = [test["name"] for test in json.loads(arguments.registered.read_text())["tests"]]
+    report = read_xml(arguments.report)
+    entries = report.iter("testcase") if report is not None else []
+    status = {entry.get("name"): entry.get("status") for entry in entries}
 
     count = collections.Counter()
     failed = []
     reasons = collections.Counter()
-    report = read_xml(arguments.report)
-    if report is None:
-        count["failed"] += 1
-        failed.append(f"ctest, which left no report in {arguments.report}")
-
-    for entry in report.iter("testcase") if report is not None else []:
-        name, status = entry.get("name"), entry.get("status")
+    for name in registered:
+        succeeded = status.get(name) == "run"
         program = PROGRAM.fullmatch(name)
+        if not program:
+            count["passed" if succeeded else "failed"] += 1
+            failed += [] if succeeded else [name]
+            continue
         failed_before = count["failed"]
-        cases = 0
-        if program:
-            for path in result_files(arguments.results / "cloth_tearing", program):
-                cases += count_cases(path, count, failed, reasons)
-        elif status == "run":
-            count["passed"] += 1
-            cases = 1
-
-        if status != "run" and count["failed"] == failed_before:
+        files = result_files(arguments.results, program)
+        cases = sum(count_cases(path, count, failed, reasons) for path in files)
+        if count["failed"] == failed_before and (cases == 0 or not succeeded):
             count["failed"] += 1
-            failed.append(f"{name}, which crashed, hung or could not run")
-        elif cases == 0 and count["failed"] == failed_before:
-            count["failed"] += 1
-            failed.append(f"{name}, which left no test case behind")
+            failed.append(name + (": is empty" if succeeded else ": crashed, hung or did not run"))
 
     for reason, cases in sorted(reasons.items()):
         print(f"skipped {cases}: {reason}")

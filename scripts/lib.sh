@@ -117,6 +117,7 @@ configure()
   mkdir -p -- "$build_dir"
   local log=$build_dir/configure.log
   cmake -S "$source_dir" -B "$build_dir" -G Ninja --no-warn-unused-cli \
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
     "$@" > "$log" 2>&1 || { cat "$log" >&2; fail "cmake could not configure the package"; }
 }
