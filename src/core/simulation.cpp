@@ -479,6 +479,13 @@ std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
   return next_thrown_++;
 }
 
+void Simulation::setTearRules(const TearRules& rules)
+{
+  refuseIf(problems(rules));
+  params_.tearing = rules;
+  tearing_ = Tearing(rules);
+}
+
 std::vector<TearEvent> Simulation::tearsSince(std::uint64_t first, std::size_t most) const
 {
   auto from = std::lower_bound(log_.begin(), log_.end(), first,

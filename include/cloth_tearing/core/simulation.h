@@ -143,6 +143,11 @@ public:
   /// @throws Refusal naming everything wrong with it
   std::uint64_t throwSphere(const ThrowRequest& request);
 
+  /// Changes the rules from the next step on, to switch tearing on and off or tune it; hem_width
+  /// counts from the next build of the cloth.
+  /// @throws Refusal naming everything wrong with them
+  void setTearRules(const TearRules& rules);
+
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
   const std::vector<Grasp>& grasps() const { return grasps_; }
