@@ -1,0 +1,125 @@
+// Publishes what the simulation does: markers, surface, status and tears.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/node/cloth_markers.h"
+#include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/node_params.h"
+
+namespace cloth_tearing
+{
+
+/// A topic that gives a late subscriber the state of now, not the last one that somebody saw.
+///
+/// The handle that says "latched" to the other side never publishes, so that nothing old waits in
+/// it; a new subscriber only wakes `on_connect`.
+class StateTopic
+{
+public:
+  template <class Message>
+  static StateTopic advertise(ros::NodeHandle& node, const std::string& name,
+                              const boost::function<void()>& on_connect)
+  {
+    StateTopic topic;
+    topic.latch_ = node.advertise<Message>(name, 1, true);
+    topic.publisher_ = node.advertise<Message>(
+        name, 1, [on_connect](const ros::SingleSubscriberPublisher&) { on_connect(); });
+    return topic;
+  }
+
+  bool heard() const { return publisher_.getNumSubscribers() > 0; }
+
+  template <class Message>
+  void publish(const boost::shared_ptr<Message>& message) const
+  {
+    publisher_.publish(message);
+  }
+
+private:
+  ros::Publisher latch_;
+  ros::Publisher publisher_;
+};
+
+/// Builds nothing that nobody listens to, and nothing twice.
+class ClothPublisher
+{
+public:
+  /// @param node private; its callback queue serves new subscribers
+  ClothPublisher(ros::NodeHandle node, const NodeParams& params, const Placement& placement);
+  ~ClothPublisher();
+
+  /// Starts publishing what `loop` holds, which has to outlive stop().
+  void start(cloth::SimulationLoop& loop);
+  void stop();
+
+  /// To be told after every step, on the loop's thread.
+  void onStep(const cloth::StepReport& report);
+
+  /// Something changed that should be seen at once.
+  void touch();
+
+  /// The reason why the simulation paused itself is settled.
+  void clearFault();
+
+  /// A request or message was refused.
+  void countRefusal(const std::string& name, const std::string& reason);
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  /// A topic and when it is its turn. All but the topic belongs to the publishing thread.
+  struct Channel
+  {
+    StateTopic topic;
+    Clock::duration period;
+    Clock::time_point due;
+    std::uint64_t seen = 0;  ///< version that was published last
+    bool wanted = false;     ///< at once, even unchanged; guarded by mutex_
+  };
+
+  template <class Message>
+  void open(ros::NodeHandle& node, const std::string& name, double rate, Channel& channel);
+
+  void run();
+  Clock::time_point nextTurn() const;
+  bool takeTurn(Channel& channel, bool wanted, bool unchanged_too, Clock::time_point now) const;
+  void publishSnapshot(bool markers, bool surface);
+  void publishStatus();
+  void publishTears(const std::vector<cloth::TearEvent>& tears) const;
+
+  Placement placement_;
+  double time_step_;
+  cloth::SimulationLoop* loop_ = nullptr;
+  ClothMarkers painter_;
+  Channel markers_;
+  Channel surface_;
+  Channel status_;
+  ros::Publisher tear_events_;
+
+  std::atomic<std::uint64_t> version_{ 1 };  ///< +1 by every step and command
+  std::atomic<int> postponed_{ 0 };
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  bool urgent_ = false;  // somebody wants something at once
+  std::string fault_;
+  std::uint64_t refusals_ = 0;
+  std::string last_refusal_;
+
+  std::thread thread_;
+};
+
+}  // namespace cloth_tearing

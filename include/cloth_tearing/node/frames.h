@@ -1,0 +1,40 @@
+// Finds the way from any frame into the cloth frame, or says why there is none.
+#pragma once
+
+#include <std_msgs/Header.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "cloth_tearing/core/types.h"
+#include "cloth_tearing/node/conversions.h"
+
+namespace cloth_tearing
+{
+
+/// May be asked from several threads at once.
+class Frames
+{
+public:
+  /// @param patience how long toCloth() waits for a transform, on the steady clock
+  Frames(const Placement& placement, std::chrono::duration<double> patience);
+
+  /// The transform from the header's frame at its stamp (0 = latest) into the cloth frame. The
+  /// node's own frame needs no tf.
+  /// @throws cloth::Refusal if frame_id is empty or there is no transform in time
+  cloth::Pose toCloth(const std_msgs::Header& header) const;
+
+  /// Ends all waiting, now and from now on.
+  void stopWaiting() { waiting_ = false; }
+
+private:
+  Placement placement_;
+  std::chrono::duration<double> patience_;
+  std::atomic<bool> waiting_{ true };
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+};
+
+}  // namespace cloth_tearing

@@ -1,0 +1,85 @@
+// Everything that the node is told at its start.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "cloth_tearing/core/import_report.h"
+#include "cloth_tearing/core/mesh_builder.h"
+#include "cloth_tearing/core/pins.h"
+#include "cloth_tearing/core/simulation.h"
+#include "cloth_tearing/core/simulation_loop.h"
+
+namespace cloth_tearing
+{
+
+/// What the cloth's colour shows.
+enum class Coloring
+{
+  TEXTURE,  ///< a woven checker, laid on by the texture position
+  STRAIN,   ///< blue - white - red
+  PLAIN,    ///< one colour
+};
+
+/// How ~markers look.
+struct MarkerStyle
+{
+  Coloring coloring = Coloring::TEXTURE;
+  int checks = 16;                                    ///< along one unit of u and of v, 1 to 200
+  std::array<double, 2> strain_range = { 0.0, 0.2 };  ///< blue to red [-], ascending
+  cloth::Vec3d plain_color = cloth::Vec3d(0.85, 0.80, 0.70);  ///< red, green, blue [-], 0 to 1
+  double edge_width = 0.004;                                  ///< of torn edges [m], > 0
+  double point_size = 0.012;  ///< weak points and held particles [m], > 0
+};
+
+/// The defaults make a usable node. `simulation` holds heights and bounds in frame_id here; see
+/// inClothFrame().
+struct NodeParams
+{
+  std::string frame_id = "world";  ///< everything is published in it and transformed into it
+
+  /// Where the model's origin and axes are, in frame_id. Models lie in x-y with y up; the default
+  /// hangs them upright, their front towards -y.
+  cloth::Pose cloth_pose = { cloth::Vec3d(0.0, 0.0, 1.5),
+                             cloth::Quatd(std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0) };
+
+  cloth::Pace pace = cloth::Pace::WALL;
+  bool paused = false;  ///< start paused
+
+  std::string model_file;  ///< an OBJ file, a path or package://PACKAGE/PATH; empty = the rectangle
+  cloth::ImportOptions import;
+  cloth::RectangleParams rectangle;
+  cloth::PinParams pins = { { "top" }, {}, {} };
+  cloth::SimulationParams simulation;
+
+  double tf_patience = 0.2;       ///< how long a request may wait for its transform [s], 0 to 10
+  double command_patience = 1.0;  ///< how long it may wait for the simulation [s], 0.01 to 60
+  double marker_rate = 30.0;      ///< ~markers at most so often [Hz], 0.1 to 1000
+  double surface_rate = 30.0;     ///< ~surface at most so often [Hz], 0.1 to 1000
+  double status_rate = 10.0;      ///< ~status so often [Hz], 0.1 to 1000
+  MarkerStyle markers;
+};
+
+/// Everything wrong with `params`, one sentence each, naming the parameter; empty if they can be
+/// used.
+std::vector<std::string> problems(const NodeParams& params);
+
+/// The simulation's parameters with heights and bounds relative to the cloth frame, whose axes are
+/// those of frame_id and whose origin is cloth_pose.position.
+cloth::SimulationParams inClothFrame(const NodeParams& params);
+
+/// The model that `params` name, its axes those of frame_id, its origin at cloth_pose.position,
+/// and the particles that are pinned.
+struct PlacedModel
+{
+  cloth::ClothModel model;
+  std::vector<int> pinned;
+  std::vector<std::string> findings;  ///< what the import mended, dropped or made up
+};
+
+/// @throws std::runtime_error or std::invalid_argument saying why there is no such model
+PlacedModel placedModel(const NodeParams& params);
+
+}  // namespace cloth_tearing

@@ -1,0 +1,30 @@
+// Carries parameters from the parameter server into the node and names everything wrong with them.
+#pragma once
+
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <string>
+#include <vector>
+
+#include "cloth_tearing/node/node_params.h"
+
+namespace cloth_tearing
+{
+
+struct LoadedParams
+{
+  NodeParams params;
+  std::vector<std::string> problems;  ///< one sentence each; empty if `params` can be used
+};
+
+/// Reads a tree of parameters over the defaults. Wrong types, values that are not finite or out of
+/// range and unknown names are all reported, not only the first; a group's entries are named
+/// group/entry.
+///
+/// @param tree the node's private namespace: a struct, or an invalid value if there is none
+LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree);
+
+/// The names of all parameters, group/entry, ascending.
+std::vector<std::string> parameterNames();
+
+}  // namespace cloth_tearing

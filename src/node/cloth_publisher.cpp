@@ -1,0 +1,262 @@
+// Publishes what the simulation does: markers, surface, status and tears.
+#include "cloth_tearing/node/cloth_publisher.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+namespace cloth_tearing
+{
+
+namespace
+{
+
+constexpr std::uint32_t TEAR_QUEUE = 1000;
+constexpr std::chrono::seconds IDLE(1);  // nobody listens: who comes wakes the thread
+
+std::chrono::steady_clock::duration periodOf(double rate)
+{
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(1.0 / rate));
+}
+
+}  // namespace
+
+ClothPublisher::ClothPublisher(ros::NodeHandle node, const NodeParams& params,
+                               const Placement& placement)
+    : placement_(placement)
+    , time_step_(params.simulation.solver.time_step)
+    , painter_(params.markers, placement)
+{
+  open<visualization_msgs::MarkerArray>(node, "markers", params.marker_rate, markers_);
+  open<ClothSurface>(node, "surface", params.surface_rate, surface_);
+  open<SimulationStatus>(node, "status", params.status_rate, status_);
+  tear_events_ = node.advertise<TearEvents>("tear_events", TEAR_QUEUE);
+}
+
+ClothPublisher::~ClothPublisher()
+{
+  stop();
+}
+
+template <class Message>
+void ClothPublisher::open(ros::NodeHandle& node, const std::string& name, double rate,
+                          Channel& channel)
+{
+  channel.period = periodOf(rate);
+  channel.due = Clock::now();
+  channel.topic = StateTopic::advertise<Message>(node, name,
+                                                 [this, &channel]
+                                                 {
+                                                   const std::lock_guard<std::mutex> lock(mutex_);
+                                                   channel.wanted = true;
+                                                   urgent_ = true;
+                                                   wake_.notify_all();
+                                                 });
+}
+
+void ClothPublisher::start(cloth::SimulationLoop& loop)
+{
+  loop_ = &loop;
+  thread_ = std::thread([this] { run(); });
+}
+
+void ClothPublisher::stop()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+    wake_.notify_all();
+  }
+  if (thread_.joinable())
+  {
+    thread_.join();
+  }
+}
+
+// -- from the simulation's thread and from callbacks ----------------------------------------------
+
+void ClothPublisher::onStep(const cloth::StepReport& report)
+{
+  ++version_;
+  postponed_ = report.postponed;
+  for (const std::string& note : report.notes)
+  {
+    ROS_WARN_STREAM(note);
+  }
+  if (!report.fault.empty())
+  {
+    ROS_ERROR_STREAM(
+        "The simulation went back to its last good state and paused: " << report.fault);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    fault_ = report.fault;
+  }
+  if (!report.tears.empty())
+  {
+    publishTears(report.tears);
+  }
+  if (!report.tears.empty() || !report.fault.empty())
+  {
+    touch();
+  }
+}
+
+void ClothPublisher::publishTears(const std::vector<cloth::TearEvent>& tears) const
+{
+  if (tear_events_.getNumSubscribers() == 0)
+  {
+    return;
+  }
+  const auto message = boost::make_shared<TearEvents>();
+  message->header.frame_id = placement_.frame_id;
+  message->header.stamp = ros::Time::now();
+  message->events = toMessages(tears, placement_);
+  tear_events_.publish(message);
+}
+
+void ClothPublisher::touch()
+{
+  ++version_;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.wanted = true;
+  urgent_ = true;
+  wake_.notify_all();
+}
+
+void ClothPublisher::clearFault()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  fault_.clear();
+}
+
+void ClothPublisher::countRefusal(const std::string& name, const std::string& reason)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++refusals_;
+  last_refusal_ = name + ": " + reason;
+}
+
+// -- the publishing thread
+// -------------------------------------------------------------------------
+
+void ClothPublisher::run()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stopping_)
+  {
+    wake_.wait_until(lock, nextTurn(), [this] { return stopping_ || urgent_; });
+    urgent_ = false;
+    const bool markers_wanted = std::exchange(markers_.wanted, false);
+    const bool surface_wanted = std::exchange(surface_.wanted, false);
+    const bool status_wanted = std::exchange(status_.wanted, false);
+    lock.unlock();
+    bool missed = false;
+    try
+    {
+      const Clock::time_point now = Clock::now();
+      const bool markers = takeTurn(markers_, markers_wanted, false, now);
+      const bool surface = takeTurn(surface_, surface_wanted, false, now);
+      if (markers || surface)
+      {
+        publishSnapshot(markers, surface);
+      }
+      if (takeTurn(status_, status_wanted, true, now))
+      {
+        publishStatus();
+      }
+    }
+    catch (const cloth::Busy&)  // a step takes longer than the patience: another turn comes
+    {
+      missed = true;
+    }
+    lock.lock();
+    markers_.wanted |= missed && markers_wanted;
+    surface_.wanted |= missed && surface_wanted;
+    status_.wanted |= missed && status_wanted;
+  }
+}
+
+ClothPublisher::Clock::time_point ClothPublisher::nextTurn() const
+{
+  Clock::time_point next = Clock::now() + IDLE;
+  for (const Channel* channel : { &markers_, &surface_, &status_ })
+  {
+    if (channel->topic.heard())
+    {
+      next = std::min(next, channel->due);
+    }
+  }
+  return next;
+}
+
+/// Whether to publish now; sets when to look again.
+bool ClothPublisher::takeTurn(Channel& channel, bool wanted, bool unchanged_too,
+                              Clock::time_point now) const
+{
+  if (!channel.topic.heard())
+  {
+    return false;
+  }
+  const bool on_time = now >= channel.due;
+  if (on_time)
+  {
+    channel.due += channel.period;
+    if (channel.due < now)  // nobody listened for a while
+    {
+      channel.due = now + channel.period;
+    }
+  }
+  return wanted || (on_time && (unchanged_too || channel.seen != version_));
+}
+
+void ClothPublisher::publishSnapshot(bool markers, bool surface)
+{
+  const std::uint64_t version = version_;  // before the snapshot: it may be newer, never older
+  const cloth::Snapshot snapshot =
+      loop_->call([](cloth::Simulation& simulation) { return simulation.snapshot(); });
+  const ros::Time stamp = ros::Time::now();
+  if (markers)
+  {
+    const auto message =
+        boost::make_shared<visualization_msgs::MarkerArray>(painter_.draw(snapshot));
+    for (visualization_msgs::Marker& marker : message->markers)
+    {
+      marker.header.stamp = stamp;
+    }
+    markers_.topic.publish(message);
+    markers_.seen = version;
+  }
+  if (surface)
+  {
+    const auto message = boost::make_shared<ClothSurface>(toMessage(snapshot.surface, placement_));
+    message->header.stamp = stamp;
+    surface_.topic.publish(message);
+    surface_.seen = version;
+  }
+}
+
+void ClothPublisher::publishStatus()
+{
+  StatusSource source;
+  source.time_step = time_step_;
+  source.postponed = postponed_;
+  loop_->call(
+      [&source](cloth::Simulation& simulation)
+      {
+        source.summary = simulation.summary();
+        source.grasps = static_cast<int>(simulation.grasps().size());
+        source.spheres = static_cast<int>(simulation.spheres().size());
+      });
+  source.loop = loop_->state();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    source.fault = fault_;
+    source.refusals = refusals_;
+    source.last_refusal = last_refusal_;
+  }
+  const auto message = boost::make_shared<SimulationStatus>(toMessage(source, placement_));
+  message->header.stamp = ros::Time::now();
+  status_.topic.publish(message);
+}
+
+}  // namespace cloth_tearing

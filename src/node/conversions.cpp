@@ -1,0 +1,402 @@
+// Moves data between the core's types and the messages.
+#include "cloth_tearing/node/conversions.h"
+
+#include <cmath>
+
+#include "cloth_tearing/core/checks.h"
+
+namespace cloth_tearing
+{
+
+using cloth::check;
+using cloth::Range;
+
+namespace
+{
+
+/// Coordinates in any frame may be large (a map's); the core judges them in the cloth frame.
+constexpr double LARGEST_INPUT = 1e9;
+
+constexpr double UNIT_TOLERANCE = 1e-3;  // what a quaternion's length may be off
+
+cloth::Vec3d toVector(const geometry_msgs::Point& p)
+{
+  return { p.x, p.y, p.z };
+}
+cloth::Vec3d toVector(const geometry_msgs::Vector3& v)
+{
+  return { v.x, v.y, v.z };
+}
+
+cloth::Quatd toQuaternion(const geometry_msgs::Quaternion& q)
+{
+  return { q.w, q.x, q.y, q.z };
+}
+
+bool isZero(const geometry_msgs::Quaternion& q)
+{
+  return q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
+}
+
+std::uint32_t toId(cloth::ParticleId p)
+{
+  return static_cast<std::uint32_t>(p.index);
+}
+
+std::uint8_t toMessage(cloth::TearKind kind)
+{
+  switch (kind)
+  {
+    case cloth::TearKind::BASIC:
+      return TearEvent::BASIC;
+    case cloth::TearKind::WEAK_POINT:
+      return TearEvent::WEAK_POINT;
+    case cloth::TearKind::ONE_POINT:
+      return TearEvent::ONE_POINT;
+    case cloth::TearKind::RELEASED:
+      break;
+  }
+  return TearEvent::RELEASED;
+}
+
+std::uint8_t toMessage(cloth::CauseKind kind)
+{
+  switch (kind)
+  {
+    case cloth::CauseKind::GRASP:
+      return TearEvent::GRASP;
+    case cloth::CauseKind::SPHERE:
+      return TearEvent::SPHERE;
+    case cloth::CauseKind::NONE:
+      break;
+  }
+  return TearEvent::NO_CAUSE;
+}
+
+void fillParticles(ClothSurface& message, const cloth::Surface& surface, const Placement& placement)
+{
+  message.positions.reserve(3 * surface.position.size());
+  for (const cloth::Vec3& x : surface.position)
+  {
+    const cloth::Vec3 placed = (x.cast<double>() + placement.origin).cast<float>();
+    message.positions.insert(message.positions.end(), placed.data(), placed.data() + 3);
+  }
+  message.strain.assign(surface.strain.begin(), surface.strain.end());
+  message.parents.reserve(2 * surface.parents.size());
+  for (const std::array<int, 2>& parents : surface.parents)
+  {
+    message.parents.insert(message.parents.end(), parents.begin(), parents.end());
+  }
+}
+
+void fillTriangles(ClothSurface& message, const cloth::Surface& surface)
+{
+  message.triangles.reserve(3 * surface.triangles.size());
+  message.uv.reserve(6 * surface.triangles.size());
+  for (const cloth::SurfaceTriangle& t : surface.triangles)
+  {
+    message.triangles.insert(message.triangles.end(), t.particles.begin(), t.particles.end());
+    for (const cloth::Vec2d& uv : t.uv)
+    {
+      message.uv.push_back(static_cast<float>(uv.x()));
+      message.uv.push_back(static_cast<float>(uv.y()));
+    }
+  }
+}
+
+void fillMarks(ClothSurface& message, const cloth::Surface& surface)
+{
+  for (const std::array<int, 2>& edge : surface.torn_edges)
+  {
+    message.torn_edges.insert(message.torn_edges.end(), edge.begin(), edge.end());
+  }
+  message.weak_points.assign(surface.weak_points.begin(), surface.weak_points.end());
+  for (const cloth::HeldParticle& held : surface.held)
+  {
+    HeldParticle particle;
+    particle.particle = static_cast<std::uint32_t>(held.particle);
+    particle.grasp = held.grasp;
+    message.held.push_back(particle);
+  }
+}
+
+void checkOrientation(std::vector<std::string>& found, const std::string& field,
+                      const geometry_msgs::Quaternion& q)
+{
+  const double length = toQuaternion(q).norm();
+  if (!isZero(q) && !(std::abs(length - 1.0) <= UNIT_TOLERANCE))
+  {
+    found.push_back(field + " has length " + cloth::text(length) +
+                    ", must be a unit quaternion, or all zero to stay as it is");
+  }
+}
+
+}  // namespace
+
+// -- out -----------------------------------------------------------------------------------------
+
+geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement)
+{
+  geometry_msgs::Point p;
+  p.x = x.x() + placement.origin.x();
+  p.y = x.y() + placement.origin.y();
+  p.z = x.z() + placement.origin.z();
+  return p;
+}
+
+ClothSurface toMessage(const cloth::Surface& surface, const Placement& placement)
+{
+  ClothSurface message;
+  message.header.frame_id = placement.frame_id;
+  message.time = surface.time;
+  message.step = surface.step;
+  message.epoch = surface.epoch;
+  message.revision = surface.revision;
+  fillParticles(message, surface, placement);
+  fillTriangles(message, surface);
+  fillMarks(message, surface);
+  return message;
+}
+
+TearEvent toMessage(const cloth::TearEvent& event, const Placement& placement)
+{
+  TearEvent message;
+  message.sequence = event.sequence;
+  message.epoch = event.epoch;
+  message.step = event.step;
+  message.time = event.time;
+  message.kind = toMessage(event.kind);
+  for (const cloth::TearEvent::Added& added : event.particles)
+  {
+    message.particles.push_back(toId(added.id));
+    message.parents.push_back(toId(added.parents[0]));
+    message.parents.push_back(toId(added.parents[1]));
+  }
+  message.spring = static_cast<std::uint32_t>(event.spring.index);
+  message.path = event.path.index;
+  for (const cloth::TriangleId t : event.triangles)
+  {
+    message.triangles.push_back(static_cast<std::uint32_t>(t.index));
+  }
+  message.position = toPoint(event.position, placement);
+  message.uv[0] = event.uv.x();
+  message.uv[1] = event.uv.y();
+  message.strain = event.strain;
+  message.threshold = event.threshold;
+  message.tension = event.tension;
+  message.cause = toMessage(event.cause.kind);
+  message.cause_id = event.cause.id;
+  message.cause_distance = event.cause.distance;
+  message.pieces = static_cast<std::uint32_t>(event.pieces);
+  message.loose_area = event.loose_area;
+  message.loose_mass = event.loose_mass;
+  return message;
+}
+
+std::vector<TearEvent> toMessages(const std::vector<cloth::TearEvent>& events,
+                                  const Placement& placement)
+{
+  std::vector<TearEvent> messages;
+  messages.reserve(events.size());
+  for (const cloth::TearEvent& event : events)
+  {
+    messages.push_back(toMessage(event, placement));
+  }
+  return messages;
+}
+
+SimulationStatus toMessage(const StatusSource& source, const Placement& placement)
+{
+  const cloth::Summary& summary = source.summary;
+  SimulationStatus message;
+  message.header.frame_id = placement.frame_id;
+  message.time = summary.time;
+  message.step = summary.step;
+  message.epoch = summary.epoch;
+  message.revision = summary.revision;
+  message.pace = name(source.loop.pace);
+  message.paused = source.loop.paused;
+  message.fault = source.fault;
+  message.time_step = source.time_step;
+  message.real_time_factor = source.loop.real_time_factor;
+  const auto tears = [&summary](cloth::TearKind kind)
+  { return summary.tears[static_cast<std::size_t>(kind)]; };
+  message.basic_tears = tears(cloth::TearKind::BASIC);
+  message.weak_point_tears = tears(cloth::TearKind::WEAK_POINT);
+  message.one_point_tears = tears(cloth::TearKind::ONE_POINT);
+  message.released_springs = tears(cloth::TearKind::RELEASED);
+  message.postponed_tears = static_cast<std::uint32_t>(source.postponed);
+  message.particles = static_cast<std::uint32_t>(summary.particles);
+  message.springs = static_cast<std::uint32_t>(summary.springs);
+  message.bend_shear_springs = static_cast<std::uint32_t>(summary.bend_shear_springs);
+  message.triangles = static_cast<std::uint32_t>(summary.triangles);
+  message.pieces = static_cast<std::uint32_t>(summary.pieces);
+  message.pieces_at_rest = static_cast<std::uint32_t>(summary.pieces_at_rest);
+  message.grasps = static_cast<std::uint32_t>(source.grasps);
+  message.spheres = static_cast<std::uint32_t>(source.spheres);
+  message.rest_area = summary.rest_area;
+  message.mass = summary.mass;
+  message.max_strain = summary.max_strain;
+  message.utilisation = summary.utilisation;
+  message.utilisation_at = toPoint(summary.utilisation_at, placement);
+  message.refusals = source.refusals;
+  message.last_refusal = source.last_refusal;
+  message.state_hash = summary.state_hash;
+  return message;
+}
+
+void fill(Step::Response& response, const cloth::StepAnswer& answer)
+{
+  response.success = answer.cut_short.empty();
+  response.message = answer.cut_short;
+  response.steps_done = answer.steps;
+  response.time = answer.time;
+  response.step = answer.step;
+  response.epoch = answer.epoch;
+  response.state_hash = answer.state_hash;
+  response.tears = answer.tears;
+}
+
+const char* name(cloth::Pace pace)
+{
+  switch (pace)
+  {
+    case cloth::Pace::WALL:
+      return "wall";
+    case cloth::Pace::FREE:
+      return "free";
+    case cloth::Pace::STEP:
+      break;
+  }
+  return "step";
+}
+
+// -- in ------------------------------------------------------------------------------------------
+
+std::vector<std::string> problems(const Grasp::Request& request)
+{
+  std::vector<std::string> found;
+  check(found, "point", toVector(request.point), LARGEST_INPUT);
+  check(found, "radius [m]", request.radius, Range::between(0.0, LARGEST_INPUT));
+  if (!request.gripper_frame.empty())
+  {
+    found.push_back("gripper_frame is not served yet: leave it empty");
+  }
+  if (request.force_limit != 0.0)
+  {
+    found.push_back("force_limit is not served yet: leave it 0");
+  }
+  return found;
+}
+
+std::vector<std::string> problems(const Drag::Request& request)
+{
+  std::vector<std::string> found;
+  check(found, "target.position", toVector(request.target.position), LARGEST_INPUT);
+  checkOrientation(found, "target.orientation", request.target.orientation);
+  check(found, "linear_speed [m/s]", request.linear_speed, Range::aboveUpTo(0.0, LARGEST_INPUT));
+  const bool turns = !isZero(request.target.orientation);
+  check(found, "angular_speed [rad/s]", request.angular_speed,
+        turns ? Range::aboveUpTo(0.0, LARGEST_INPUT) : Range::between(0.0, LARGEST_INPUT));
+  return found;
+}
+
+std::vector<std::string> problems(const ThrowSphere::Request& request)
+{
+  std::vector<std::string> found;
+  check(found, "center", toVector(request.center), LARGEST_INPUT);
+  check(found, "velocity", toVector(request.velocity), LARGEST_INPUT);
+  check(found, "radius [m]", request.radius, Range::aboveUpTo(0.0, LARGEST_INPUT));
+  check(found, "mass [kg]", request.mass, Range::between(0.0, LARGEST_INPUT));
+  check(found, "lifetime [s]", request.lifetime, Range::between(0.0, LARGEST_INPUT));
+  return found;
+}
+
+std::vector<std::string> problems(const CollisionSpheres& message)
+{
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < message.spheres.size(); ++i)
+  {
+    const CollisionSphere& sphere = message.spheres[i];
+    const std::string field = "spheres[" + std::to_string(i) + "].";
+    check(found, field + "center", toVector(sphere.center), LARGEST_INPUT);
+    check(found, field + "velocity", toVector(sphere.velocity), LARGEST_INPUT);
+    check(found, field + "radius [m]", sphere.radius, Range::aboveUpTo(0.0, LARGEST_INPUT));
+    check(found, field + "mass [kg]", sphere.mass, Range::between(0.0, LARGEST_INPUT));
+    if (!sphere.frame.empty())
+    {
+      found.push_back(field + "frame is not served yet: leave it empty");
+    }
+  }
+  return found;
+}
+
+cloth::Pose toClothFrame(const geometry_msgs::Transform& transform, const Placement& placement)
+{
+  cloth::Pose pose;
+  pose.position = toVector(transform.translation) - placement.origin;
+  pose.rotation = toQuaternion(transform.rotation).normalized();
+  return pose;
+}
+
+cloth::GraspRequest toCore(const Grasp::Request& request, const cloth::Pose& to_cloth)
+{
+  cloth::GraspRequest grasp;
+  grasp.point = to_cloth.apply(toVector(request.point));
+  grasp.radius = request.radius;
+  grasp.frame.position = grasp.point;
+  return grasp;
+}
+
+Destination toCore(const Drag::Request& request, const cloth::Pose& to_cloth)
+{
+  Destination destination;
+  destination.keeps_rotation = isZero(request.target.orientation);
+  cloth::DragTarget& target = destination.target;
+  target.pose.position = to_cloth.apply(toVector(request.target.position));
+  target.linear_speed = request.linear_speed;
+  if (request.angular_speed > 0.0)
+  {
+    target.angular_speed = request.angular_speed;
+  }
+  if (!destination.keeps_rotation)
+  {
+    target.pose.rotation =
+        (to_cloth.rotation * toQuaternion(request.target.orientation)).normalized();
+  }
+  return destination;
+}
+
+cloth::ThrowRequest toCore(const ThrowSphere::Request& request, const cloth::Pose& to_cloth)
+{
+  cloth::ThrowRequest sphere;
+  sphere.center = to_cloth.apply(toVector(request.center));
+  sphere.velocity = to_cloth.rotation * toVector(request.velocity);
+  sphere.radius = request.radius;
+  sphere.mass = request.mass;
+  if (request.lifetime > 0.0)
+  {
+    sphere.lifetime = request.lifetime;
+  }
+  return sphere;
+}
+
+std::vector<cloth::Sphere> toCore(const CollisionSpheres& message, const cloth::Pose& to_cloth)
+{
+  std::vector<cloth::Sphere> spheres;
+  for (const CollisionSphere& sphere : message.spheres)
+  {
+    cloth::Sphere converted;
+    converted.source = cloth::SphereSource::STREAMED;
+    converted.id = sphere.id;
+    converted.center = to_cloth.apply(toVector(sphere.center));
+    converted.previous = converted.center;
+    converted.velocity = to_cloth.rotation * toVector(sphere.velocity);
+    converted.radius = sphere.radius;
+    converted.mass = sphere.mass;
+    spheres.push_back(converted);
+  }
+  return spheres;
+}
+
+}  // namespace cloth_tearing

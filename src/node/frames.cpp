@@ -1,0 +1,59 @@
+// Finds the way from any frame into the cloth frame, or says why there is none.
+#include "cloth_tearing/node/frames.h"
+
+#include <thread>
+
+#include "cloth_tearing/core/refusal.h"
+
+namespace cloth_tearing
+{
+
+namespace
+{
+
+constexpr std::chrono::milliseconds LOOK_AGAIN(5);
+
+}  // namespace
+
+Frames::Frames(const Placement& placement, std::chrono::duration<double> patience)
+    : placement_(placement), patience_(patience), listener_(buffer_)
+{
+}
+
+cloth::Pose Frames::toCloth(const std_msgs::Header& header) const
+{
+  if (header.frame_id.empty())
+  {
+    throw cloth::Refusal(
+        "header.frame_id is empty, must name the frame of the values (the cloth's is " +
+        placement_.frame_id + ")");
+  }
+  if (header.frame_id == placement_.frame_id)
+  {
+    return { -placement_.origin, cloth::Quatd::Identity() };
+  }
+  // tf2 itself is never asked to wait: it would on ROS time, which may stand still.
+  const auto deadline = std::chrono::steady_clock::now() + patience_;
+  std::string why;
+  while (!buffer_.canTransform(placement_.frame_id, header.frame_id, header.stamp, &why))
+  {
+    if (!waiting_ || std::chrono::steady_clock::now() > deadline)
+    {
+      throw cloth::Refusal("header.frame_id: no transform from " + header.frame_id + " to " +
+                           placement_.frame_id + ": " + why);
+    }
+    std::this_thread::sleep_for(LOOK_AGAIN);
+  }
+  try
+  {
+    return toClothFrame(
+        buffer_.lookupTransform(placement_.frame_id, header.frame_id, header.stamp).transform,
+        placement_);
+  }
+  catch (const tf2::TransformException& error)  // it went out of the buffer just now
+  {
+    throw cloth::Refusal("header.frame_id: " + std::string(error.what()));
+  }
+}
+
+}  // namespace cloth_tearing

@@ -1,0 +1,171 @@
+// What is wrong with the node's parameters, and what becomes of them.
+#include "cloth_tearing/node/node_params.h"
+
+#include <ros/package.h>
+
+#include <algorithm>
+
+#include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/obj_reader.h"
+
+namespace cloth_tearing
+{
+
+using cloth::check;
+using cloth::Range;
+
+namespace
+{
+
+void append(std::vector<std::string>& found, const std::string& group,
+            const std::vector<std::string>& problems)
+{
+  for (const std::string& problem : problems)
+  {
+    found.push_back(group + problem);
+  }
+}
+
+void checkFrame(std::vector<std::string>& found, const std::string& frame_id)
+{
+  if (frame_id.empty())
+  {
+    found.push_back("frame_id is empty, must name a tf frame");
+  }
+  else if (frame_id.front() == '/')
+  {
+    found.push_back("frame_id is \"" + frame_id + "\", must not begin with a slash");
+  }
+}
+
+void checkStyle(std::vector<std::string>& found, const MarkerStyle& style)
+{
+  check(found, "markers/checks", style.checks, Range::between(1, 200));
+  check(found, "markers/edge_width [m]", style.edge_width, Range::aboveUpTo(0.0, 1.0));
+  check(found, "markers/point_size [m]", style.point_size, Range::aboveUpTo(0.0, 1.0));
+  for (int i = 0; i < 3; ++i)
+  {
+    check(found, "markers/plain_color[" + std::to_string(i) + "]", style.plain_color[i],
+          Range::between(0.0, 1.0));
+  }
+  if (!(style.strain_range[0] < style.strain_range[1]))
+  {
+    found.push_back("markers/strain_range is from " + cloth::text(style.strain_range[0]) + " to " +
+                    cloth::text(style.strain_range[1]) + ", must ascend");
+  }
+}
+
+/// What is wrong with the simulation's parameters, each group under its own name.
+std::vector<std::string> grouped(const cloth::SimulationParams& simulation)
+{
+  const std::vector<std::pair<std::string, std::vector<std::string>>> groups = {
+    { "material/", problems(simulation.material) },
+    { "environment/", problems(simulation.environment) },
+    { "tearing/", problems(simulation.tearing) },
+    { "contact/", problems(simulation.contact) },
+  };
+  std::vector<std::string> rest = problems(simulation);
+  std::vector<std::string> found;
+  for (const auto& group : groups)
+  {
+    append(found, group.first, group.second);
+    for (const std::string& problem : group.second)
+    {
+      rest.erase(std::remove(rest.begin(), rest.end(), problem), rest.end());
+    }
+  }
+  append(found, "", rest);
+  return found;
+}
+
+const std::string PACKAGE_SCHEME = "package://";
+
+bool inPackage(const std::string& model_file)
+{
+  return model_file.compare(0, PACKAGE_SCHEME.size(), PACKAGE_SCHEME) == 0;
+}
+
+/// The file that `model_file` names: package:// leads into an installed package.
+std::string resolved(const std::string& model_file)
+{
+  if (!inPackage(model_file))
+  {
+    return model_file;
+  }
+  const std::size_t name = PACKAGE_SCHEME.size();
+  const std::size_t slash = model_file.find('/', name);
+  const std::string package = model_file.substr(name, slash - name);
+  const std::string folder = ros::package::getPath(package);
+  if (folder.empty() || slash == std::string::npos)
+  {
+    throw std::runtime_error(
+        "model_file " + model_file + ": " +
+        (folder.empty() ? "there is no package " + package : "there is no path after the package"));
+  }
+  return folder + model_file.substr(slash);
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const NodeParams& params)
+{
+  std::vector<std::string> found;
+  checkFrame(found, params.frame_id);
+  check(found, "tf_patience [s]", params.tf_patience, Range::between(0.0, 10.0));
+  check(found, "command_patience [s]", params.command_patience, Range::between(0.01, 60.0));
+  check(found, "marker_rate [Hz]", params.marker_rate, Range::between(0.1, 1000.0));
+  check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
+  check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
+  checkStyle(found, params.markers);
+  if (params.model_file.empty())
+  {
+    append(found, "rectangle/", problems(params.rectangle));
+  }
+  else
+  {
+    if (!inPackage(params.model_file) && params.model_file.front() != '/')
+    {
+      found.push_back("model_file is \"" + params.model_file + "\", must be an absolute path or " +
+                      PACKAGE_SCHEME + "PACKAGE/PATH");
+    }
+    append(found, "import/", problems(params.import));
+  }
+  append(found, "", grouped(params.simulation));
+  return found;
+}
+
+cloth::SimulationParams inClothFrame(const NodeParams& params)
+{
+  cloth::SimulationParams simulation = params.simulation;
+  const cloth::Vec3d& origin = params.cloth_pose.position;
+  simulation.contact.floor_height -= origin.z();
+  simulation.contact.bounds_min -= origin;
+  simulation.contact.bounds_max -= origin;
+  return simulation;
+}
+
+PlacedModel placedModel(const NodeParams& params)
+{
+  PlacedModel placed;
+  if (params.model_file.empty())
+  {
+    placed.model = cloth::rectangle(params.rectangle);
+  }
+  else
+  {
+    cloth::ObjImport imported = cloth::readObjFile(resolved(params.model_file), params.import);
+    placed.model = std::move(imported.model);
+    for (const cloth::ImportFinding& finding : imported.report.findings)
+    {
+      placed.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.text);
+    }
+  }
+  placed.pinned = cloth::pinnedParticles(placed.model, params.pins);
+  for (cloth::Vec3d& position : placed.model.positions)
+  {
+    position = params.cloth_pose.rotation * position;
+  }
+  return placed;
+}
+
+}  // namespace cloth_tearing

@@ -1,0 +1,179 @@
+// Carries parameters from the parameter server into the node and names everything wrong with them.
+#include "cloth_tearing/node/params_loader.h"
+
+#include "cloth_tearing/node/param_reader.h"
+
+namespace cloth_tearing
+{
+
+namespace
+{
+
+void readNode(ParamReader& reader, NodeParams& params)
+{
+  reader.read("frame_id", params.frame_id);
+  reader.read("cloth_pose/position", params.cloth_pose.position);
+  reader.read("cloth_pose/rotation", params.cloth_pose.rotation);
+  reader.readChoice<cloth::Pace>("pace",
+                                 { { "wall", cloth::Pace::WALL },
+                                   { "free", cloth::Pace::FREE },
+                                   { "step", cloth::Pace::STEP } },
+                                 params.pace);
+  reader.read("paused", params.paused);
+  reader.read("tf_patience", params.tf_patience);
+  reader.read("command_patience", params.command_patience);
+  reader.read("marker_rate", params.marker_rate);
+  reader.read("surface_rate", params.surface_rate);
+  reader.read("status_rate", params.status_rate);
+}
+
+void readMarkers(ParamReader& reader, MarkerStyle& style)
+{
+  reader.readChoice<Coloring>("markers/coloring",
+                              { { "texture", Coloring::TEXTURE },
+                                { "strain", Coloring::STRAIN },
+                                { "plain", Coloring::PLAIN } },
+                              style.coloring);
+  reader.read("markers/checks", style.checks);
+  reader.read("markers/strain_range", style.strain_range);
+  reader.read("markers/plain_color", style.plain_color);
+  reader.read("markers/edge_width", style.edge_width);
+  reader.read("markers/point_size", style.point_size);
+}
+
+void readRectangle(ParamReader& reader, cloth::RectangleParams& rectangle)
+{
+  reader.read("rectangle/width", rectangle.width);
+  reader.read("rectangle/height", rectangle.height);
+  reader.read("rectangle/columns", rectangle.columns);
+  reader.read("rectangle/rows", rectangle.rows);
+  reader.readChoice<cloth::RectanglePattern>(
+      "rectangle/pattern",
+      { { "one_diagonal", cloth::RectanglePattern::ONE_DIAGONAL },
+        { "alternating", cloth::RectanglePattern::ALTERNATING },
+        { "irregular", cloth::RectanglePattern::IRREGULAR } },
+      rectangle.pattern);
+  reader.read("rectangle/grading", rectangle.grading);
+  reader.read("rectangle/jitter", rectangle.jitter);
+  int seed = static_cast<int>(rectangle.seed);
+  reader.read("rectangle/seed", seed);
+  if (seed < 0)
+  {
+    reader.note("rectangle/seed is " + std::to_string(seed) + ", must be at least 0");
+  }
+  rectangle.seed = static_cast<std::uint64_t>(seed);
+  std::vector<std::vector<double>> slits;
+  reader.readRows("rectangle/slits", 4, slits);
+  for (const std::vector<double>& s : slits)
+  {
+    rectangle.slits.push_back({ cloth::Vec2d(s[0], s[1]), cloth::Vec2d(s[2], s[3]) });
+  }
+}
+
+void readModel(ParamReader& reader, NodeParams& params)
+{
+  reader.read("model_file", params.model_file);
+  reader.read("import/scale", params.import.scale);
+  reader.read("import/weld_distance", params.import.weld_distance);
+  readRectangle(reader, params.rectangle);
+  reader.readChoice<cloth::RestShapeSource>(
+      "rest_shape",
+      { { "imported", cloth::RestShapeSource::IMPORTED }, { "uv", cloth::RestShapeSource::UV } },
+      params.simulation.rest_shape);
+  reader.read("pins/edges", params.pins.edges);
+  reader.read("pins/particles", params.pins.particles);
+  std::vector<std::vector<double>> regions;
+  reader.readRows("pins/regions", 4, regions);
+  for (const std::vector<double>& r : regions)
+  {
+    params.pins.regions.push_back({ cloth::Vec3d(r[0], r[1], r[2]), r[3] });
+  }
+}
+
+void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
+{
+  reader.readChoice<cloth::SolverKind>("solver",
+                                       { { "xpbd", cloth::SolverKind::XPBD },
+                                         { "force_springs", cloth::SolverKind::FORCE_SPRINGS } },
+                                       simulation.solver.kind);
+  reader.read("time_step", simulation.solver.time_step);
+  reader.read("max_strain", simulation.solver.max_strain);
+  reader.read("max_substeps", simulation.solver.max_substeps);
+  reader.read("max_grasp_distance", simulation.max_grasp_distance);
+  reader.read("max_speed", simulation.max_speed);
+  reader.read("runaway_strain", simulation.runaway_strain);
+  reader.read("tear_log_size", simulation.tear_log_size);
+
+  reader.read("material/areal_density", simulation.material.areal_density);
+  reader.read("material/stiffness", simulation.material.stiffness);
+  reader.read("material/bend_shear_stiffness", simulation.material.bend_shear_stiffness);
+  reader.read("material/damping", simulation.material.damping);
+
+  reader.read("environment/gravity", simulation.environment.gravity);
+  reader.read("environment/air_friction", simulation.environment.air_friction);
+  reader.read("environment/wind", simulation.environment.wind);
+  reader.read("environment/wind_drag", simulation.environment.wind_drag);
+}
+
+void readTearing(ParamReader& reader, cloth::TearRules& rules)
+{
+  reader.read("tearing/enabled", rules.enabled);
+  reader.read("tearing/tear_strain", rules.tear_strain);
+  reader.read("tearing/weak_tear_strain", rules.weak_tear_strain);
+  reader.read("tearing/one_point_tear_strain", rules.one_point_tear_strain);
+  reader.read("tearing/tear_radius", rules.tear_radius);
+  reader.read("tearing/crack_length", rules.crack_length);
+  reader.read("tearing/hem_factor", rules.hem_factor);
+  reader.read("tearing/hem_width", rules.hem_width);
+  reader.read("tearing/max_tears_per_step", rules.max_tears_per_step);
+  reader.read("tearing/min_length", rules.min_length);
+  reader.read("tearing/min_altitude", rules.min_altitude);
+}
+
+void readContact(ParamReader& reader, cloth::ContactParams& contact)
+{
+  reader.read("contact/friction", contact.friction);
+  reader.read("contact/thickness", contact.thickness);
+  reader.read("contact/push_speed", contact.push_speed);
+  reader.read("contact/floor", contact.floor);
+  reader.read("contact/floor_height", contact.floor_height);
+  reader.read("contact/floor_friction", contact.floor_friction);
+  reader.read("contact/bounds_min", contact.bounds_min);
+  reader.read("contact/bounds_max", contact.bounds_max);
+  reader.read("contact/max_sphere_speed", contact.max_sphere_speed);
+  reader.read("contact/sphere_timeout", contact.sphere_timeout);
+}
+
+void readAll(ParamReader& reader, NodeParams& params)
+{
+  readNode(reader, params);
+  readMarkers(reader, params.markers);
+  readModel(reader, params);
+  readPhysics(reader, params.simulation);
+  readTearing(reader, params.simulation.tearing);
+  readContact(reader, params.simulation.contact);
+}
+
+}  // namespace
+
+LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree)
+{
+  LoadedParams loaded;
+  ParamReader reader(tree);
+  readAll(reader, loaded.params);
+  reader.noteLeftOver();
+  loaded.problems = reader.problems();
+  const std::vector<std::string> unusable = problems(loaded.params);
+  loaded.problems.insert(loaded.problems.end(), unusable.begin(), unusable.end());
+  return loaded;
+}
+
+std::vector<std::string> parameterNames()
+{
+  NodeParams params;
+  ParamReader reader((XmlRpc::XmlRpcValue()));
+  readAll(reader, params);
+  return { reader.known().begin(), reader.known().end() };
+}
+
+}  // namespace cloth_tearing
