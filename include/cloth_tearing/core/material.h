@@ -12,9 +12,9 @@ namespace cloth
 /// Elastic behaviour, the same for both solvers. SI units; the defaults make a cotton-like sheet.
 struct Material
 {
-  double areal_density = 0.15;         ///< [kg/m^2], > 0
-  double stiffness = 60.0;             ///< Y of structural springs, per width [N/m], > 0
-  double bend_shear_stiffness = 12.0;  ///< Yb of bend-shear springs, per width [N/m], >= 0 (3.1.2)
+  double areal_density = 0.12;         ///< [kg/m^2], > 0
+  double stiffness = 100.0;            ///< Y of structural springs, per width [N/m], > 0
+  double bend_shear_stiffness = 20.0;  ///< Yb of bend-shear springs, per width [N/m], >= 0 (3.1.2)
   double damping = 0.02;               ///< spring damping, per width [N s/m], >= 0 (2.1.1)
 };
 

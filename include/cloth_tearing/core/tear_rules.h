@@ -12,14 +12,14 @@ namespace cloth
 struct TearRules
 {
   bool enabled = true;
-  double tear_strain = 0.20;       ///< sound cloth tears above this [-], > 0 (3.2.1)
-  double weak_tear_strain = 0.16;  ///< at a weak point [-], > 0, <= tear_strain (3.2.2)
+  double tear_strain = 0.30;       ///< sound cloth tears above this [-], > 0 (3.2.1)
+  double weak_tear_strain = 0.22;  ///< at a weak point [-], > 0, <= tear_strain (3.2.2)
   double one_point_tear_strain =
       0.16;  ///< at a one-point connection [-], > 0, <= tear_strain (3.2.3)
 
   /// An intact spring tears on the mean stretch of the cloth within this distance [m], >= 0; 0 =
   /// on its own strain alone.
-  double tear_radius = 0.04;
+  double tear_radius = 0.05;
 
   /// Crack band: at a weak point the threshold grows by sqrt(crack_length / rest length) for
   /// springs shorter than this [m], >= 0, so that a tear costs the same energy on any mesh.
@@ -27,7 +27,7 @@ struct TearRules
 
   /// Thresholds are multiplied by this within hem_width of a pin [-], >= 1; 1 = no hem.
   double hem_factor = 2.0;
-  double hem_width = 0.08;  ///< [m], >= 0
+  double hem_width = 0.10;  ///< [m], >= 0
 
   int max_tears_per_step = 50;  ///< the rest wait for the next step, >= 1
 
