@@ -26,10 +26,11 @@ constexpr double MAX_GRADING = 5;
 constexpr double MAX_JITTER = 0.5;  // of the local spacing
 constexpr std::int64_t MAX_PARTICLES = 1000000;
 
-// After three rounds of random moves nothing of the grid's directions is left.
-constexpr int JITTER_ROUNDS = 3;
+// After ten rounds of random moves hardly anything of the grid's directions is left.
+constexpr int JITTER_ROUNDS = 10;
 constexpr double MIN_ROUNDNESS = 0.6;      // equilateral is 1, half a square 0.87
-constexpr double MIN_EDGE_SPACINGS = 0.6;  // no edge is made shorter than this, in local spacings
+constexpr double MIN_EDGE_SPACINGS = 0.6;  // no edge is made shorter or longer than these,
+constexpr double MAX_EDGE_SPACINGS = 1.7;  // in local spacings
 
 std::string text(double value)
 {
@@ -226,7 +227,8 @@ private:
     points_[p] = Vec2d(before.x() + reach * dx, before.y() + reach * dy);
     const Shape new_shape = shapeAround(p, around);
     if (new_shape.roundness < std::min(MIN_ROUNDNESS, old_shape.roundness) ||
-        new_shape.edge < std::min(MIN_EDGE_SPACINGS * spacing, old_shape.edge))
+        new_shape.shortest < std::min(MIN_EDGE_SPACINGS * spacing, old_shape.shortest) ||
+        new_shape.longest > std::max(MAX_EDGE_SPACINGS * spacing, old_shape.longest))
     {
       points_[p] = before;
     }
@@ -235,13 +237,14 @@ private:
   struct Shape
   {
     double roundness;  // of the least round triangle
-    double edge;       // the shortest one
+    double shortest;   // edge
+    double longest;
   };
 
   Shape shapeAround(int p, const TrianglesByPoint& around) const
   {
     const double infinity = std::numeric_limits<double>::infinity();
-    Shape worst = { infinity, infinity };
+    Shape worst = { infinity, infinity, 0 };
     for (const int* t = around.begin(p); t != around.end(p); ++t)
     {
       const FlatTriangle& corners = triangles_[*t];
@@ -252,7 +255,9 @@ private:
       {
         if (q != p)
         {
-          worst.edge = std::min(worst.edge, (points_[q] - points_[p]).norm());
+          const double length = (points_[q] - points_[p]).norm();
+          worst.shortest = std::min(worst.shortest, length);
+          worst.longest = std::max(worst.longest, length);
         }
       }
     }

@@ -69,6 +69,19 @@ Words nextWord(Words& rest)
   return word;
 }
 
+// Where the comment of a line starts: at a # that no word holds, as 1.#INF does.
+const char* commentIn(const Words& line)
+{
+  for (const char* c = line.begin; c != line.end; ++c)
+  {
+    if (*c == '#' && (c == line.begin || isSpace(c[-1])))
+    {
+      return c;
+    }
+  }
+  return line.end;
+}
+
 // Goes through the text line by line, joining those that end with a backslash.
 class LineReader
 {
@@ -126,8 +139,7 @@ private:
   // A path in a comment may well end with a backslash.
   static bool continues(const Words& line)
   {
-    return !line.empty() && line.end[-1] == '\\' &&
-           std::find(line.begin, line.end, '#') == line.end;
+    return !line.empty() && line.end[-1] == '\\' && commentIn(line) == line.end;
   }
 
   const char* next_;
@@ -290,7 +302,7 @@ public:
     Words line = { nullptr, nullptr };
     while (lines_.read(line))
     {
-      line.end = std::find(line.begin, line.end, '#');
+      line.end = commentIn(line);
       const Words keyword = nextWord(line);
       if (!keyword.empty())
       {

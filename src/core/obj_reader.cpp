@@ -142,7 +142,7 @@ private:
         box_.add(content_.positions[content_.corners[face.first_corner + i].vertex]);
       }
     }
-    const double diagonal = box_.size().norm();
+    const double diagonal = box_.size().stableNorm();  // also of a size whose square is 0
     if (!(diagonal >= MIN_SIZE))
     {
       problems_.refuse(0, "the model is " + importText(diagonal) + " m across, must be at least " +

@@ -136,7 +136,7 @@ public:
   // False where rounding leaves no ear to clip.
   bool run(std::vector<FlatTriangle>& triangles)
   {
-    std::size_t i = 0;
+    std::size_t i = 1;  // a quad is cut from its first corner, as most tools do
     std::size_t refused = 0;
     while (left_.size() > 3 && refused < left_.size())
     {
