@@ -137,10 +137,10 @@ std::vector<std::string> problems(const NodeParams& params)
 cloth::SimulationParams inClothFrame(const NodeParams& params)
 {
   cloth::SimulationParams simulation = params.simulation;
-  const cloth::Vec3d& origin = params.cloth_pose.position;
-  simulation.contact.floor_height -= origin.z();
-  simulation.contact.bounds_min -= origin;
-  simulation.contact.bounds_max -= origin;
+  if (simulation.contact.floor)
+  {
+    simulation.contact.floor_height -= params.cloth_pose.position.z();
+  }
   return simulation;
 }
 

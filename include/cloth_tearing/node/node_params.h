@@ -34,8 +34,8 @@ struct MarkerStyle
   double point_size = 0.012;  ///< weak points and held particles [m], > 0
 };
 
-/// The defaults make a usable node. `simulation` holds heights and bounds in frame_id here; see
-/// inClothFrame().
+/// The defaults make a usable node. `simulation` holds the height of the floor in frame_id here;
+/// see inClothFrame().
 struct NodeParams
 {
   std::string frame_id = "world";  ///< everything is published in it and transformed into it
@@ -66,8 +66,8 @@ struct NodeParams
 /// used.
 std::vector<std::string> problems(const NodeParams& params);
 
-/// The simulation's parameters with heights and bounds relative to the cloth frame, whose axes are
-/// those of frame_id and whose origin is cloth_pose.position.
+/// The simulation's parameters with the floor's height in the cloth frame, whose axes are those of
+/// frame_id and whose origin is cloth_pose.position.
 cloth::SimulationParams inClothFrame(const NodeParams& params);
 
 /// The model that `params` name, its axes those of frame_id, its origin at cloth_pose.position,
