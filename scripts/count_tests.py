@@ -4,8 +4,8 @@
 Goes through the tests that are registered (ctest --show-only=json-v1), looks up what ctest reported
 about each (ctest --output-junit) and, for a gtest or a rostest, what the program itself wrote. A
 program that crashed, hung, was not run, or left no test case behind counts as one failed case.
-Prints every failed case and every reason to skip, then the counts alone on a line. Ends with 0 only
-if something passed and nothing failed.
+So does a run without any gtest or rostest. Prints every failed case and every reason to skip, then
+the counts alone on a line. Ends with 0 only if nothing failed.
 """
 
 import argparse
@@ -76,6 +76,9 @@ def main():
     count = collections.Counter()
     failed = []
     reasons = collections.Counter()
+    if not any(map(PROGRAM.fullmatch, registered)):
+        count["failed"] += 1
+        failed.append("no gtest and no rostest is registered")
     for name in registered:
         succeeded = status.get(name) == "run"
         program = PROGRAM.fullmatch(name)
@@ -96,7 +99,7 @@ def main():
         print(f"failed: {name}")
     closing = f"{count['passed']} passed, {count['failed']} failed"
     print(closing + (f", {count['skipped']} skipped" if count["skipped"] else ""))
-    return 0 if count["passed"] and not count["failed"] else 1
+    return 1 if count["failed"] else 0
 
 
 if __name__ == "__main__":
