@@ -475,6 +475,18 @@ TEST(ObjReader, DropsAFlatFaceAtTheBorder)
   EXPECT_TRUE(isClean(cloth));
 }
 
+TEST(ObjReader, DropsAFlatFaceThatIsOneTooManyAtAnEdge)
+{
+  const ObjImport cloth = import(
+      "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 -1 0\n"
+      "f 1 2 4\nf 2 3 4\nf 1 5 2\nf 2 5 3\nf 1 2 3\n");
+
+  EXPECT_EQ(cloth.report.triangles, 4);
+  EXPECT_EQ(cloth.report.borders, 1);
+  EXPECT_TRUE(reports(cloth, 10, "too many at the edge between vertices 1 and 2; dropped"));
+  EXPECT_TRUE(isClean(cloth));
+}
+
 TEST(ObjReader, TakesFlatFacesOutOneAfterTheOther)
 {
   // A fan of flat faces under the edge 1-6: 2 to 5 lie on it.

@@ -16,6 +16,29 @@ constexpr int NOTHING = -1;
 // Each round removes what the one before made removable; what is left then leaves slits.
 constexpr int MAX_ROUNDS = 50;
 
+bool isFlat(const std::vector<Vec3d>& positions, const std::array<int, 3>& corners,
+            double tolerance)
+{
+  const Vec3d& a = positions[corners[0]];
+  const Vec3d& b = positions[corners[1]];
+  const Vec3d& c = positions[corners[2]];
+  const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
+  return !((b - a).cross(c - a).norm() > tolerance * longest);
+}
+
+void erase(const std::vector<bool>& removed, std::vector<SoupTriangle>& triangles)
+{
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    if (!removed[t])
+    {
+      triangles[kept++] = triangles[t];
+    }
+  }
+  triangles.resize(kept);
+}
+
 class Flattener
 {
 public:
@@ -49,7 +72,7 @@ public:
     {
       leaveSlit(t);
     }
-    eraseRemoved();
+    erase(removed_, triangles_);
   }
 
 private:
@@ -63,11 +86,7 @@ private:
 
   bool isFlat(const std::array<int, 3>& corners) const
   {
-    const Vec3d& a = positions_[corners[0]];
-    const Vec3d& b = positions_[corners[1]];
-    const Vec3d& c = positions_[corners[2]];
-    const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
-    return !((b - a).cross(c - a).norm() > tolerance_ * longest);
+    return cloth::isFlat(positions_, corners, tolerance_);
   }
 
   void findEdges()
@@ -205,19 +224,6 @@ private:
     }
   }
 
-  void eraseRemoved()
-  {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-    {
-      if (!removed_[t])
-      {
-        triangles_[kept++] = triangles_[t];
-      }
-    }
-    triangles_.resize(kept);
-  }
-
   const std::vector<Vec3d>& positions_;
   const double tolerance_;
   std::vector<SoupTriangle>& triangles_;
@@ -228,6 +234,32 @@ private:
 };
 
 }  // namespace
+
+void dropCrowdedFlatTriangles(const std::vector<Vec3d>& positions, double tolerance,
+                              std::vector<SoupTriangle>& triangles, ImportReport& report)
+{
+  const std::vector<EdgeUse> uses = edgeUses(triangles);
+  std::vector<bool> removed(triangles.size(), false);
+  for (std::size_t first = 0, last = 0; first < uses.size(); first = last)
+  {
+    while (last < uses.size() && uses[last].sameEdge(uses[first]))
+    {
+      ++last;
+    }
+    for (std::size_t i = first; last - first > 2 && i < last; ++i)
+    {
+      const SoupTriangle& triangle = triangles[uses[i].triangle];
+      if (!removed[uses[i].triangle] && isFlat(positions, triangle.vertices, tolerance))
+      {
+        removed[uses[i].triangle] = true;
+        reportFinding(report, report.dropped_faces, triangle.line,
+                      "the face has no area and is one of too many at the edge between " +
+                          vertexNames(uses[i].low, uses[i].high) + "; dropped");
+      }
+    }
+  }
+  erase(removed, triangles);
+}
 
 void removeFlatTriangles(const std::vector<Vec3d>& positions, double tolerance,
                          std::vector<SoupTriangle>& triangles, ImportReport& report)

@@ -2,9 +2,8 @@
 #include "cloth_tearing/core/import_report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <locale>
-#include <sstream>
+
+#include "cloth_tearing/core/checks.h"
 
 namespace cloth
 {
@@ -12,40 +11,20 @@ namespace
 {
 
 constexpr std::size_t MAX_PROBLEMS_SHOWN = 10;
+constexpr double MOST_COORDINATE = 1e9;  // [m]; volumes of boxes stay far from overflow
 
 }  // namespace
-
-std::string importText(double number)
-{
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << number;
-  return out.str();
-}
 
 std::vector<std::string> problems(const ImportOptions& options)
 {
   std::vector<std::string> found;
-  const auto require =
-      [&found](bool holds, const std::string& field, double value, const std::string& limit)
-  {
-    if (!holds)
-    {
-      found.push_back(field + " is " + importText(value) + ", must be " + limit);
-    }
-  };
-  const auto isFinite = [](double value) { return std::isfinite(value); };
-  require(options.scale > 0 && isFinite(options.scale), "scale", options.scale,
-          "above 0 and finite");
-  require(options.weld_distance >= 0 && isFinite(options.weld_distance), "weld_distance",
-          options.weld_distance, "at least 0 and finite");
-  require(options.max_bytes > 0, "max_bytes", static_cast<double>(options.max_bytes), "above 0");
-  require(options.max_vertices > 0, "max_vertices", options.max_vertices, "above 0");
-  require(options.max_triangles > 0, "max_triangles", options.max_triangles, "above 0");
-  require(options.max_polygon_corners >= 3, "max_polygon_corners", options.max_polygon_corners,
-          "at least 3");
-  require(options.max_coordinate > 0 && options.max_coordinate <= 1e9, "max_coordinate",
-          options.max_coordinate, "above 0 and at most 1e+09");
+  check(found, "scale", options.scale, Range::above(0));
+  check(found, "weld_distance", options.weld_distance, Range::atLeast(0));
+  check(found, "max_bytes", static_cast<double>(options.max_bytes), Range::atLeast(1));
+  check(found, "max_vertices", options.max_vertices, Range::atLeast(1));
+  check(found, "max_triangles", options.max_triangles, Range::atLeast(1));
+  check(found, "max_polygon_corners", options.max_polygon_corners, Range::atLeast(3));
+  check(found, "max_coordinate", options.max_coordinate, Range::aboveUpTo(0, MOST_COORDINATE));
   return found;
 }
 

@@ -5,13 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <queue>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/delaunay.h"
 
 namespace cloth
@@ -32,14 +31,6 @@ constexpr double MIN_ROUNDNESS = 0.6;      // equilateral is 1, half a square 0.
 constexpr double MIN_EDGE_SPACINGS = 0.6;  // no edge is made shorter or longer than these,
 constexpr double MAX_EDGE_SPACINGS = 1.7;  // in local spacings
 
-std::string text(double value)
-{
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
-}
-
 std::string joined(const std::vector<std::string>& sentences)
 {
   std::string all;
@@ -50,21 +41,11 @@ std::string joined(const std::vector<std::string>& sentences)
   return all;
 }
 
-void checkRange(const std::string& field, double value, double low, double high,
-                std::vector<std::string>& found)
-{
-  if (!(value >= low && value <= high))  // also catches NaN
-  {
-    found.push_back(field + " is " + text(value) + ", must be from " + text(low) + " to " +
-                    text(high));
-  }
-}
-
 void checkSlitEnd(const std::string& field, const Vec2d& place, const RectangleParams& params,
                   std::vector<std::string>& found)
 {
-  checkRange(field + ".x", place.x(), -params.width / 2, params.width / 2, found);
-  checkRange(field + ".y", place.y(), -params.height, 0, found);
+  check(found, field + ".x", place.x(), Range::between(-params.width / 2, params.width / 2));
+  check(found, field + ".y", place.y(), Range::between(-params.height, 0));
 }
 
 // Places of grid lines from 0 to 1, symmetric, `grading` times further apart at the ends.
@@ -521,18 +502,19 @@ RectanglePattern rectanglePattern(const std::string& name)
 std::vector<std::string> problems(const RectangleParams& params)
 {
   std::vector<std::string> found;
-  checkRange("width", params.width, MIN_SIZE, MAX_SIZE, found);
-  checkRange("height", params.height, MIN_SIZE, MAX_SIZE, found);
-  checkRange("columns", params.columns, 2, static_cast<double>(MAX_PARTICLES) / 2, found);
-  checkRange("rows", params.rows, 2, static_cast<double>(MAX_PARTICLES) / 2, found);
+  check(found, "width", params.width, Range::between(MIN_SIZE, MAX_SIZE));
+  check(found, "height", params.height, Range::between(MIN_SIZE, MAX_SIZE));
+  check(found, "columns", params.columns,
+        Range::between(2, static_cast<double>(MAX_PARTICLES) / 2));
+  check(found, "rows", params.rows, Range::between(2, static_cast<double>(MAX_PARTICLES) / 2));
   const std::int64_t particles = std::int64_t{ params.columns } * params.rows;
   if (params.columns >= 2 && params.rows >= 2 && particles > MAX_PARTICLES)
   {
     found.push_back("columns x rows is " + std::to_string(particles) + ", must be at most " +
                     std::to_string(MAX_PARTICLES));
   }
-  checkRange("grading", params.grading, MIN_GRADING, MAX_GRADING, found);
-  checkRange("jitter", params.jitter, 0, MAX_JITTER, found);
+  check(found, "grading", params.grading, Range::between(MIN_GRADING, MAX_GRADING));
+  check(found, "jitter", params.jitter, Range::between(0, MAX_JITTER));
   for (std::size_t i = 0; i < params.slits.size(); ++i)
   {
     const std::string field = "slits[" + std::to_string(i) + "]";

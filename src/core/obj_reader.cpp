@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/mesh.h"
 #include "cloth_tearing/core/obj_parser.h"
 #include "cloth_tearing/core/polygon.h"
@@ -96,6 +97,7 @@ public:
     measure();
     joinVertices();
     cutFaces();
+    dropCrowdedFlatTriangles(content_.positions, tolerance_, triangles_, report_);
     findOverlaps(triangles_, problems_);
     problems_.refuseIfAny();
     windAlike(triangles_, report_, problems_);
@@ -125,9 +127,9 @@ private:
       const double largest = place.cwiseAbs().maxCoeff();
       if (!(largest <= options_.max_coordinate))
       {
-        problems_.add(content_.lines[i],
-                      "a coordinate of " + importText(largest) + " m, must be at most " +
-                          importText(options_.max_coordinate) + " m (max_coordinate)");
+        problems_.add(content_.lines[i], "a coordinate of " + text(largest) +
+                                             " m, must be at most " +
+                                             text(options_.max_coordinate) + " m (max_coordinate)");
       }
     }
     problems_.refuseIfAny();
@@ -145,8 +147,8 @@ private:
     const double diagonal = box_.size().stableNorm();  // also of a size whose square is 0
     if (!(diagonal >= MIN_SIZE))
     {
-      problems_.refuse(0, "the model is " + importText(diagonal) + " m across, must be at least " +
-                              importText(MIN_SIZE) + " m (scale)");
+      problems_.refuse(0, "the model is " + text(diagonal) + " m across, must be at least " +
+                              text(MIN_SIZE) + " m (scale)");
     }
     tolerance_ = ZERO * diagonal;
   }

@@ -1,6 +1,7 @@
 // Welding by position and collapsing of edges without length.
 #include "cloth_tearing/core/vertex_joiner.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/triangle_soup.h"
 
 namespace cloth
@@ -128,7 +130,7 @@ void weld(const std::vector<Vec3d>& positions, const std::vector<int>& lines, do
     const double away = (positions[near] - positions[vertex]).norm();
     reportFinding(report, report.welded_vertices, lines[vertex],
                   "vertex " + std::to_string(vertex + 1) + " is joined to vertex " +
-                      std::to_string(near + 1) + ", " + importText(away) + " m away");
+                      std::to_string(near + 1) + ", " + text(away) + " m away");
   }
 }
 

@@ -102,7 +102,4 @@ private:
   std::size_t count_ = 0;
 };
 
-/// `number` as a person writes it, whatever the locale.
-std::string importText(double number);
-
 }  // namespace cloth

@@ -32,6 +32,11 @@ struct EdgeUse
 /// All sides of all triangles; those of one edge stand together, in the order of the triangles.
 std::vector<EdgeUse> edgeUses(const std::vector<SoupTriangle>& triangles);
 
+/// Drops triangles whose least altitude is `tolerance` [m] or less from edges that have more than
+/// two triangles, and reports each: without area they are no reason to refuse a model.
+void dropCrowdedFlatTriangles(const std::vector<Vec3d>& positions, double tolerance,
+                              std::vector<SoupTriangle>& triangles, ImportReport& report);
+
 /// Judges a soup that must become one layer of cloth: notes in `problems` every triangle that
 /// another one covers and every edge with more than two triangles, with lines and vertices
 /// (counted from 1).
