@@ -472,7 +472,10 @@ Edit Mesh::detach(ParticleId p, const std::vector<TriangleId>& moved,
     springs_[twin.index].triangles[0] = moves;
     auto& around = triangles_[moves.index].springs;
     std::replace(around.begin(), around.end(), s, twin);
-    edit.touched.push_back(stays);
+    if (edit.touched.back() != stays)  // one triangle may stay between two cuts
+    {
+      edit.touched.push_back(stays);
+    }
   }
   moveTriangles(moved, p, copy);
   return edit;
@@ -652,8 +655,15 @@ std::vector<std::string> defects(const Mesh& mesh)
   {
     const ParticleId p{ i };
     int listed = 0;
-    mesh.forEachTriangleAt(
-        p, [&](TriangleId t) { listed += mesh.triangle(t).cornerOf(p) >= 0 ? 1 : 0; });
+    for (int c = mesh.first_corner_[i]; c >= 0 && listed <= corners[i]; c = mesh.next_corner_[c])
+    {
+      if (mesh.triangles_[c / 3].particles[c % 3] != p)
+      {
+        found.push_back(name(p) + " lists a corner of another particle");
+        break;
+      }
+      ++listed;
+    }
     if (corners[i] == 0)
     {
       found.push_back(name(p) + " belongs to no triangle");
