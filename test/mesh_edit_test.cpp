@@ -702,6 +702,22 @@ TEST(EditedCloth, HoldsTheOriginalAndNotTheCopyWhetherPinnedOrGrasped)
   }
 }
 
+TEST(EditedCloth, GivesAReleasedSpringATwinThatIsReleasedToo)
+{
+  Cloth cloth = clothOf(openFan({ 0, 40, 90, 120, 170 }));
+  const SpringId s = springBetween(cloth.mesh, 0, 3);
+  cloth.springs.release(s);
+  cloth.damage.released[s.index] = 1;
+
+  const Edit edit = cloth.mesh.detachAlong({ 0 }, s);
+  cloth.follow(edit);
+
+  const int twin = edit.springs[0].id.index;
+  EXPECT_TRUE(cloth.damage.released[twin]);
+  EXPECT_FALSE(cloth.springs.structural[twin].active());
+  EXPECT_FALSE(cloth.springs.structural[s.index].active());
+}
+
 TEST(EditedCloth, KnowsWhichBordersATearHasOpened)
 {
   Cloth cloth = clothOf(openFan({ 0, 40, 90, 120, 170 }));

@@ -81,6 +81,13 @@ void Cloth::follow(const Edit& edit)
   }
   rest.follow(mesh, edit);
   springs.refresh(mesh, rest, material, edit.touched);
+  for (const auto& added : edit.springs)
+  {
+    if (damage.released[added.id.index])
+    {
+      springs.release(added.id);
+    }
+  }
 
   const auto refreshParticle = [&](ParticleId p)
   {
