@@ -6,7 +6,10 @@ namespace cloth
 namespace
 {
 
-void solve(ParticleState& state, const std::vector<SpringLaw>& springs, Real dt)
+/// Moves `displacement`, the way of each particle since the start of the step. Lengths and speeds
+/// come from ways, not from differences of places: these are too coarse for a short step.
+void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Real dt,
+           std::vector<Vec3>& displacement)
 {
   for (const SpringLaw& spring : springs)
   {
@@ -17,9 +20,10 @@ void solve(ParticleState& state, const std::vector<SpringLaw>& springs, Real dt)
     const Real wa = state.inverse_mass[spring.a];
     const Real wb = state.inverse_mass[spring.b];
     const Real w = wa + wb;
-    Vec3& a = state.position[spring.a];
-    Vec3& b = state.position[spring.b];
-    const Vec3 d = b - a;
+    Vec3& a = displacement[spring.a];
+    Vec3& b = displacement[spring.b];
+    const Vec3 moved = b - a;
+    const Vec3 d = (state.previous[spring.b] - state.previous[spring.a]) + moved;
     const Real length = std::sqrt(d.squaredNorm());
     if (!(w > 0) || !(spring.stiffness > 0) || !(length > 0))
     {
@@ -29,9 +33,8 @@ void solve(ParticleState& state, const std::vector<SpringLaw>& springs, Real dt)
     // compliance and damping of the constraint over this step; see Macklin et al. 2016, eq. 26
     const Real compliance = Real(1) / (spring.stiffness * dt * dt);
     const Real damping = spring.damping / (spring.stiffness * dt);
-    const Real stretching = n.dot((b - state.previous[spring.b]) - (a - state.previous[spring.a]));
     const Real lambda =
-        ((length - spring.rest) + damping * stretching) / ((Real(1) + damping) * w + compliance);
+        ((length - spring.rest) + damping * n.dot(moved)) / ((Real(1) + damping) * w + compliance);
     a += (wa * lambda) * n;
     b -= (wb * lambda) * n;
   }
@@ -48,20 +51,21 @@ void XpbdSolver::advance(ParticleState& state, const SpringTable& springs,
                          const std::vector<Vec3>& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt);
+  displacement_.resize(state.size());
   for (int i = 0; i < state.size(); ++i)
   {
-    if (state.inverse_mass[i] > 0)
-    {
-      state.position[i] += h * (state.velocity[i] + h * acceleration[i]);
-    }
+    displacement_[i] = state.inverse_mass[i] > 0
+                           ? Vec3(h * (state.velocity[i] + h * acceleration[i]))
+                           : Vec3(state.position[i] - state.previous[i]);
   }
-  solve(state, springs.structural, h);
-  solve(state, springs.bend_shear, h);
+  solve(state, springs.structural, h, displacement_);
+  solve(state, springs.bend_shear, h, displacement_);
   for (int i = 0; i < state.size(); ++i)
   {
     if (state.inverse_mass[i] > 0)
     {
-      state.velocity[i] = (state.position[i] - state.previous[i]) / h;
+      state.position[i] = state.previous[i] + displacement_[i];
+      state.velocity[i] = displacement_[i] / h;
     }
   }
 }

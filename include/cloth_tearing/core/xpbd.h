@@ -1,6 +1,8 @@
 // Solver: compliant distance constraints, one Gauss-Seidel sweep a step.
 #pragma once
 
+#include <vector>
+
 #include "cloth_tearing/core/solver.h"
 
 namespace cloth
@@ -18,6 +20,9 @@ public:
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
   Stability checkStability(const ParticleState& state, const SpringTable& springs,
                            double dt) override;
+
+private:
+  std::vector<Vec3> displacement_;  ///< by particle, scratch of a step [m]
 };
 
 }  // namespace cloth
