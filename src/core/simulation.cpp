@@ -22,6 +22,20 @@ void append(std::vector<std::string>& found, const std::vector<std::string>& mor
   found.insert(found.end(), more.begin(), more.end());
 }
 
+/// Air acts on the speed at the start of a step: braking by more than this speed would turn it
+/// round, and at twice that let it grow without end.
+void checkAir(std::vector<std::string>& found, const SimulationParams& params)
+{
+  const Environment& air = params.environment;
+  const double rate = air.air_friction + air.wind_drag / params.material.areal_density;
+  const double dt = params.solver.time_step;
+  if (params.material.areal_density > 0.0 && rate * dt > 1.0)
+  {
+    found.push_back("air_friction + wind_drag / areal_density is " + text(rate) +
+                    " [1/s], must be at most 1 / time_step = " + text(1.0 / dt));
+  }
+}
+
 const SimulationParams& checked(const SimulationParams& params)
 {
   refuseIf(problems(params));
@@ -37,6 +51,7 @@ std::vector<std::string> problems(const SimulationParams& params)
   append(found, problems(params.solver));
   append(found, problems(params.tearing));
   append(found, problems(params.contact));
+  checkAir(found, params);
   check(found, "max_grasp_distance [m]", params.max_grasp_distance,
         Range::aboveUpTo(0.0, MAX_COORDINATE));
   check(found, "max_speed [m/s]", params.max_speed, Range::aboveUpTo(0.0, 1e4));
