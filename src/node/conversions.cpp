@@ -17,6 +17,8 @@ namespace
 /// Coordinates in any frame may be large (a map's); the core judges them in the cloth frame.
 constexpr double LARGEST_INPUT = 1e9;
 
+constexpr std::size_t MOST_SPHERES = 1000;  // at once
+
 constexpr double UNIT_TOLERANCE = 1e-3;  // what a quaternion's length may be off
 
 cloth::Vec3d toVector(const geometry_msgs::Point& p)
@@ -315,6 +317,11 @@ std::vector<std::string> problems(const ThrowSphere::Request& request)
 std::vector<std::string> problems(const CollisionSpheres& message)
 {
   std::vector<std::string> found;
+  if (message.spheres.size() > MOST_SPHERES)
+  {
+    return { "spheres has " + std::to_string(message.spheres.size()) +
+             " entries, must be at most " + std::to_string(MOST_SPHERES) };
+  }
   for (std::size_t i = 0; i < message.spheres.size(); ++i)
   {
     const CollisionSphere& sphere = message.spheres[i];

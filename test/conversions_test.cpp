@@ -1,0 +1,305 @@
+// Data keeps its meaning between the core's types and the messages.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cloth_tearing/node/conversions.h"
+
+using namespace cloth_tearing;  // NOLINT: the subject of every line below
+
+namespace
+{
+
+const Placement PLACEMENT{ "map", cloth::Vec3d(10.0, 20.0, 30.0) };
+
+/// Two triangles that share an edge; particle 3 was added by a tear.
+cloth::Surface smallSurface()
+{
+  cloth::Surface surface;
+  surface.time = 1.5;
+  surface.step = 7;
+  surface.epoch = 2;
+  surface.revision = 1;
+  surface.position = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 } };
+  surface.normal.assign(4, cloth::Vec3(0, -1, 0));
+  surface.strain = { 0.0F, 0.1F, 0.2F, 0.3F };
+  surface.parents = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 1, 2 } };
+  surface.triangles = { { { 0, 1, 2 }, { { { 0, 0 }, { 1, 0 }, { 0, 1 } } } },
+                        { { 1, 3, 2 }, { { { 0.5, 0 }, { 1, 1 }, { 0, 0.25 } } } } };
+  surface.torn_edges = { { 1, 3 } };
+  surface.weak_points = { 2 };
+  surface.held = { { 0, 0 }, { 3, 9 } };
+  return surface;
+}
+
+Drag::Request dragRequest()
+{
+  Drag::Request request;
+  request.grasp_id = 1;
+  request.target.orientation.w = 1.0;
+  request.linear_speed = 0.5;
+  request.angular_speed = 0.25;
+  return request;
+}
+
+ThrowSphere::Request throwRequest()
+{
+  ThrowSphere::Request request;
+  request.radius = 0.1;
+  return request;
+}
+
+CollisionSpheres oneSphere()
+{
+  CollisionSpheres message;
+  message.spheres.resize(1);
+  message.spheres[0].id = 5;
+  message.spheres[0].radius = 0.2;
+  return message;
+}
+
+std::string joined(const std::vector<std::string>& lines)
+{
+  std::string all;
+  for (const std::string& line : lines)
+  {
+    all += line + "\n";
+  }
+  return all;
+}
+
+/// A quarter turn about z and a shift.
+cloth::Pose quarterTurn()
+{
+  cloth::Pose pose;
+  pose.position = cloth::Vec3d(1.0, 0.0, 0.0);
+  pose.rotation = cloth::Quatd(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+  return pose;
+}
+
+}  // namespace
+
+TEST(SurfaceMessage, HoldsTheMeshInTheFrameOfItsHeader)
+{
+  const ClothSurface message = toMessage(smallSurface(), PLACEMENT);
+
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_EQ(message.time, 1.5);
+  EXPECT_EQ(message.step, 7u);
+  EXPECT_EQ(message.epoch, 2u);
+  EXPECT_EQ(message.revision, 1u);
+  ASSERT_EQ(message.positions.size(), 12u);
+  EXPECT_EQ(message.positions[9], 11.0F);
+  EXPECT_EQ(message.positions[10], 20.0F);
+  EXPECT_EQ(message.positions[11], 31.0F);
+  EXPECT_EQ(message.strain, (std::vector<float>{ 0.0F, 0.1F, 0.2F, 0.3F }));
+  EXPECT_EQ(message.parents, (std::vector<std::uint32_t>{ 0, 0, 1, 1, 2, 2, 1, 2 }));
+  EXPECT_EQ(message.triangles, (std::vector<std::uint32_t>{ 0, 1, 2, 1, 3, 2 }));
+  EXPECT_EQ(message.uv, (std::vector<float>{ 0, 0, 1, 0, 0, 1, 0.5F, 0, 1, 1, 0, 0.25F }));
+  EXPECT_EQ(message.torn_edges, (std::vector<std::uint32_t>{ 1, 3 }));
+  EXPECT_EQ(message.weak_points, (std::vector<std::uint32_t>{ 2 }));
+  ASSERT_EQ(message.held.size(), 2u);
+  EXPECT_EQ(message.held[0].grasp, 0u) << "0 = pinned";
+  EXPECT_EQ(message.held[1].particle, 3u);
+  EXPECT_EQ(message.held[1].grasp, 9u);
+}
+
+TEST(TearEventMessage, TellsWhatTheCoreTold)
+{
+  cloth::TearEvent event;
+  event.sequence = 4;
+  event.epoch = 1;
+  event.step = 9;
+  event.time = 0.25;
+  event.kind = cloth::TearKind::WEAK_POINT;
+  event.particles = { { cloth::ParticleId{ 8 },
+                        { cloth::ParticleId{ 2 }, cloth::ParticleId{ 3 } } } };
+  event.spring = cloth::SpringId{ 6 };
+  event.path = cloth::SpringId{ 5 };
+  event.triangles = { cloth::TriangleId{ 1 }, cloth::TriangleId{ 2 } };
+  event.position = cloth::Vec3d(0.5, 0.0, -1.0);
+  event.uv = cloth::Vec2d(0.25, 0.75);
+  event.strain = 0.3;
+  event.threshold = 0.2;
+  event.tension = 12.5;
+  event.cause = { cloth::CauseKind::SPHERE, 77, 0.125 };
+  event.pieces = 2;
+  event.loose_area = 0.5;
+  event.loose_mass = 0.05;
+
+  const TearEvent message = toMessage(event, PLACEMENT);
+
+  EXPECT_EQ(message.sequence, 4u);
+  EXPECT_EQ(message.epoch, 1u);
+  EXPECT_EQ(message.step, 9u);
+  EXPECT_EQ(message.time, 0.25);
+  EXPECT_EQ(message.kind, TearEvent::WEAK_POINT);
+  EXPECT_EQ(message.particles, (std::vector<std::uint32_t>{ 8 }));
+  EXPECT_EQ(message.parents, (std::vector<std::uint32_t>{ 2, 3 }));
+  EXPECT_EQ(message.spring, 6u);
+  EXPECT_EQ(message.path, 5);
+  EXPECT_EQ(message.triangles, (std::vector<std::uint32_t>{ 1, 2 }));
+  EXPECT_EQ(message.position.x, 10.5);
+  EXPECT_EQ(message.position.z, 29.0);
+  EXPECT_EQ(message.uv[1], 0.75);
+  EXPECT_EQ(message.strain, 0.3);
+  EXPECT_EQ(message.threshold, 0.2);
+  EXPECT_EQ(message.tension, 12.5);
+  EXPECT_EQ(message.cause, TearEvent::SPHERE);
+  EXPECT_EQ(message.cause_id, 77u);
+  EXPECT_EQ(message.cause_distance, 0.125);
+  EXPECT_EQ(message.pieces, 2u);
+  EXPECT_EQ(message.loose_area, 0.5);
+  EXPECT_EQ(message.loose_mass, 0.05);
+}
+
+TEST(TearEventMessage, NamesEachKind)
+{
+  const std::vector<std::pair<cloth::TearKind, int>> kinds = {
+    { cloth::TearKind::BASIC, TearEvent::BASIC },
+    { cloth::TearKind::WEAK_POINT, TearEvent::WEAK_POINT },
+    { cloth::TearKind::ONE_POINT, TearEvent::ONE_POINT },
+    { cloth::TearKind::RELEASED, TearEvent::RELEASED },
+  };
+  for (const auto& kind : kinds)
+  {
+    cloth::TearEvent event;
+    event.kind = kind.first;
+    EXPECT_EQ(toMessage(event, PLACEMENT).kind, kind.second);
+  }
+  EXPECT_EQ(toMessage(cloth::TearEvent(), PLACEMENT).path, -1) << "no path";
+}
+
+TEST(StatusMessage, CountsTearsByKind)
+{
+  StatusSource source;
+  source.summary.tears = { 1, 2, 3, 4 };
+  source.summary.utilisation_at = cloth::Vec3d(1.0, 1.0, 1.0);
+  source.loop.pace = cloth::Pace::FREE;
+  source.refusals = 5;
+  source.last_refusal = "grasp: no";
+
+  const SimulationStatus message = toMessage(source, PLACEMENT);
+
+  EXPECT_EQ(message.basic_tears, 1u);
+  EXPECT_EQ(message.weak_point_tears, 2u);
+  EXPECT_EQ(message.one_point_tears, 3u);
+  EXPECT_EQ(message.released_springs, 4u);
+  EXPECT_EQ(message.utilisation_at.y, 21.0);
+  EXPECT_EQ(message.pace, "free");
+  EXPECT_EQ(message.refusals, 5u);
+  EXPECT_EQ(message.last_refusal, "grasp: no");
+}
+
+TEST(Requests, ArriveInTheClothFrame)
+{
+  Grasp::Request grasp;
+  grasp.point.x = 2.0;
+  EXPECT_TRUE(toCore(grasp, quarterTurn()).point.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
+  EXPECT_TRUE(toCore(grasp, quarterTurn()).frame.position.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
+  EXPECT_EQ(toCore(grasp, quarterTurn()).frame.rotation.w(), 1.0) << "axes of frame_id";
+
+  Drag::Request drag = dragRequest();
+  drag.target.position.x = 2.0;
+  const Destination destination = toCore(drag, quarterTurn());
+  EXPECT_TRUE(destination.target.pose.position.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
+  EXPECT_NEAR(destination.target.pose.rotation.z(), std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(destination.target.linear_speed, 0.5);
+  EXPECT_EQ(destination.target.angular_speed, 0.25);
+  EXPECT_FALSE(destination.keeps_rotation);
+
+  ThrowSphere::Request ball = throwRequest();
+  ball.velocity.x = 3.0;
+  EXPECT_TRUE(toCore(ball, quarterTurn()).velocity.isApprox(cloth::Vec3d(0.0, 3.0, 0.0)));
+  EXPECT_EQ(toCore(ball, quarterTurn()).lifetime, 10.0) << "0 = 10 s";
+
+  CollisionSpheres spheres = oneSphere();
+  spheres.spheres[0].center.x = 2.0;
+  const std::vector<cloth::Sphere> converted = toCore(spheres, quarterTurn());
+  ASSERT_EQ(converted.size(), 1u);
+  EXPECT_EQ(converted[0].id, 5u);
+  EXPECT_TRUE(converted[0].center.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
+  EXPECT_EQ(converted[0].source, cloth::SphereSource::STREAMED);
+}
+
+TEST(Requests, KeepTheRotationWhenTheOrientationIsZero)
+{
+  Drag::Request drag = dragRequest();
+  drag.target.orientation.w = 0.0;
+  drag.angular_speed = 0.0;
+
+  EXPECT_EQ(joined(problems(drag)), "");
+  EXPECT_TRUE(toCore(drag, cloth::Pose()).keeps_rotation);
+}
+
+TEST(Requests, OfGoodValuesHaveNoProblems)
+{
+  EXPECT_EQ(joined(problems(Grasp::Request())), "");
+  EXPECT_EQ(joined(problems(dragRequest())), "");
+  EXPECT_EQ(joined(problems(throwRequest())), "");
+  EXPECT_EQ(joined(problems(oneSphere())), "");
+  EXPECT_EQ(joined(problems(CollisionSpheres())), "");
+}
+
+TEST(Requests, NameEachFieldThatIsWrong)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<std::string, std::string>> cases;  // what has to be said, what is said
+  const auto grasp = [&cases](const std::string& expected, auto change)
+  {
+    Grasp::Request request;
+    change(request);
+    cases.emplace_back(expected, joined(problems(request)));
+  };
+  grasp("point.x is nan", [&](auto& r) { r.point.x = nan; });
+  grasp("point.z is inf", [&](auto& r) { r.point.z = infinity; });
+  grasp("radius [m] is -1", [&](auto& r) { r.radius = -1.0; });
+  grasp("radius [m] is nan", [&](auto& r) { r.radius = nan; });
+  grasp("gripper_frame is not served yet", [&](auto& r) { r.gripper_frame = "hand"; });
+  grasp("force_limit is not served yet", [&](auto& r) { r.force_limit = 3.0; });
+  grasp("force_limit is not served yet", [&](auto& r) { r.force_limit = nan; });
+  const auto drag = [&cases](const std::string& expected, auto change)
+  {
+    Drag::Request request = dragRequest();
+    change(request);
+    cases.emplace_back(expected, joined(problems(request)));
+  };
+  drag("target.position.y is nan", [&](auto& r) { r.target.position.y = nan; });
+  drag("target.orientation has length 2", [&](auto& r) { r.target.orientation.w = 2.0; });
+  drag("target.orientation has length nan", [&](auto& r) { r.target.orientation.x = nan; });
+  drag("linear_speed [m/s] is 0", [&](auto& r) { r.linear_speed = 0.0; });
+  drag("linear_speed [m/s] is inf", [&](auto& r) { r.linear_speed = infinity; });
+  drag("angular_speed [rad/s] is 0", [&](auto& r) { r.angular_speed = 0.0; });
+  const auto ball = [&cases](const std::string& expected, auto change)
+  {
+    ThrowSphere::Request request = throwRequest();
+    change(request);
+    cases.emplace_back(expected, joined(problems(request)));
+  };
+  ball("center.x is nan", [&](auto& r) { r.center.x = nan; });
+  ball("velocity.z is nan", [&](auto& r) { r.velocity.z = nan; });
+  ball("radius [m] is 0", [&](auto& r) { r.radius = 0.0; });
+  ball("mass [kg] is -1", [&](auto& r) { r.mass = -1.0; });
+  ball("lifetime [s] is -1", [&](auto& r) { r.lifetime = -1.0; });
+  const auto sphere = [&cases](const std::string& expected, auto change)
+  {
+    CollisionSpheres message = oneSphere();
+    change(message.spheres[0]);
+    cases.emplace_back(expected, joined(problems(message)));
+  };
+  sphere("spheres[0].center.x is nan", [&](auto& s) { s.center.x = nan; });
+  sphere("spheres[0].velocity.y is inf", [&](auto& s) { s.velocity.y = infinity; });
+  sphere("spheres[0].radius [m] is nan", [&](auto& s) { s.radius = nan; });
+  sphere("spheres[0].mass [kg] is nan", [&](auto& s) { s.mass = nan; });
+  sphere("spheres[0].frame is not served yet", [&](auto& s) { s.frame = "hand"; });
+
+  for (const auto& c : cases)
+  {
+    EXPECT_NE(c.second.find(c.first), std::string::npos)
+        << "no '" << c.first << "' in: " << c.second;
+  }
+  CollisionSpheres many;
+  many.spheres.resize(1001, oneSphere().spheres[0]);
+  EXPECT_EQ(joined(problems(many)), "spheres has 1001 entries, must be at most 1000\n");
+}

@@ -1,0 +1,253 @@
+// Parameters are carried over the defaults, and everything wrong with them is named at once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cloth_tearing/node/params_loader.h"
+
+using cloth_tearing::loadParams;
+using XmlRpc::XmlRpcValue;
+
+namespace
+{
+
+XmlRpcValue list(const std::vector<XmlRpcValue>& entries)
+{
+  XmlRpcValue result;
+  result.setSize(static_cast<int>(entries.size()));
+  for (std::size_t i = 0; i < entries.size(); ++i)
+  {
+    result[static_cast<int>(i)] = entries[i];
+  }
+  return result;
+}
+
+std::string joined(const std::vector<std::string>& lines)
+{
+  std::string all;
+  for (const std::string& line : lines)
+  {
+    all += line + "\n";
+  }
+  return all;
+}
+
+/// The problems with a tree of one wrong entry.
+std::string problemsWith(const std::string& group, const std::string& entry,
+                         const XmlRpcValue& value)
+{
+  XmlRpcValue tree;
+  if (group.empty())
+  {
+    tree[entry] = value;
+  }
+  else
+  {
+    tree[group][entry] = value;
+  }
+  return joined(loadParams(tree).problems);
+}
+
+}  // namespace
+
+TEST(ParamsLoader, FindsNothingWrongWithNoParametersAtAll)
+{
+  EXPECT_EQ(joined(loadParams(XmlRpcValue()).problems), "");
+}
+
+TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
+{
+  XmlRpcValue tree;
+  tree["frame_id"] = "map";
+  tree["pace"] = "step";
+  tree["paused"] = true;
+  tree["cloth_pose"]["position"] = list({ 1, 2.5, -3 });
+  tree["cloth_pose"]["rotation"] = list({ 0, 0, 1, 0 });
+  tree["rectangle"]["columns"] = 12;
+  tree["rectangle"]["pattern"] = "irregular";
+  tree["rectangle"]["seed"] = 7;
+  tree["rectangle"]["slits"] = list({ list({ 0.1, -0.2, 0.3, -0.4 }) });
+  tree["pins"]["edges"] = list({ "left", "right" });
+  tree["pins"]["particles"] = list({ 4, 5 });
+  tree["pins"]["regions"] = list({ list({ 0, 0, 0, 1 }) });
+  tree["solver"] = "force_springs";
+  tree["material"]["stiffness"] = 55.5;
+  tree["tearing"]["enabled"] = false;
+  tree["markers"]["coloring"] = "strain";
+
+  const cloth_tearing::LoadedParams loaded = loadParams(tree);
+
+  ASSERT_EQ(joined(loaded.problems), "");
+  const cloth_tearing::NodeParams& params = loaded.params;
+  EXPECT_EQ(params.frame_id, "map");
+  EXPECT_EQ(params.pace, cloth::Pace::STEP);
+  EXPECT_TRUE(params.paused);
+  EXPECT_EQ(params.cloth_pose.position, cloth::Vec3d(1.0, 2.5, -3.0));
+  EXPECT_EQ(params.cloth_pose.rotation.z(), 1.0);
+  EXPECT_EQ(params.rectangle.columns, 12);
+  EXPECT_EQ(params.rectangle.pattern, cloth::RectanglePattern::IRREGULAR);
+  EXPECT_EQ(params.rectangle.seed, 7u);
+  ASSERT_EQ(params.rectangle.slits.size(), 1u);
+  EXPECT_EQ(params.rectangle.slits[0].end, cloth::Vec2d(0.3, -0.4));
+  EXPECT_EQ(params.pins.edges, (std::vector<std::string>{ "left", "right" }));
+  EXPECT_EQ(params.pins.particles, (std::vector<int>{ 4, 5 }));
+  ASSERT_EQ(params.pins.regions.size(), 1u);
+  EXPECT_EQ(params.pins.regions[0].radius, 1.0);
+  EXPECT_EQ(params.simulation.solver.kind, cloth::SolverKind::FORCE_SPRINGS);
+  EXPECT_EQ(params.simulation.material.stiffness, 55.5);
+  EXPECT_FALSE(params.simulation.tearing.enabled);
+  EXPECT_EQ(params.markers.coloring, cloth_tearing::Coloring::STRAIN);
+}
+
+TEST(ParamsLoader, TakesWholeNumbersForRealOnes)
+{
+  XmlRpcValue tree;
+  tree["marker_rate"] = 20;
+  tree["material"]["stiffness"] = 55;
+
+  const cloth_tearing::LoadedParams loaded = loadParams(tree);
+
+  ASSERT_EQ(joined(loaded.problems), "");
+  EXPECT_EQ(loaded.params.marker_rate, 20.0);
+  EXPECT_EQ(loaded.params.simulation.material.stiffness, 55.0);
+}
+
+TEST(ParamsLoader, NamesEveryProblemAtOnce)
+{
+  XmlRpcValue tree;
+  tree["time_step"] = "fast";
+  tree["material"]["stiffness"] = -1.0;
+  tree["environment"]["wind"] = list({ 0, 0 });
+  tree["tearing"]["tear_strian"] = 0.3;
+  tree["marker_rate"] = std::numeric_limits<double>::quiet_NaN();
+  tree["rectangle"]["rows"] = 1;
+
+  const std::string found = joined(loadParams(tree).problems);
+
+  for (const char* name : { "time_step", "material/stiffness", "environment/wind",
+                            "tearing/tear_strian", "marker_rate", "rectangle/rows" })
+  {
+    EXPECT_NE(found.find(name), std::string::npos) << name << " is not among:\n" << found;
+  }
+  EXPECT_EQ(loadParams(tree).problems.size(), 6u) << found;
+}
+
+TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  struct Case
+  {
+    const char* group;
+    const char* entry;
+    XmlRpcValue value;
+    const char* expected;
+  };
+  const std::vector<Case> cases = {
+    { "", "frame_id", 3, "must be text" },
+    { "", "frame_id", "", "frame_id is empty" },
+    { "", "frame_id", "/world", "must not begin with a slash" },
+    { "", "paused", 1, "must be true or false" },
+    { "", "pace", "clock", "must be one of free, step, wall" },
+    { "", "pace", "", "must be one of free, step, wall" },
+    { "", "solver", 1, "must be one of force_springs, xpbd" },
+    { "", "time_step", "1e-3", "write 1.0e-3" },
+    { "", "time_step", 0.5, "time_step [s] is 0.5" },
+    { "", "time_step", infinity, "must be finite" },
+    { "", "tear_log_size", 10.5, "must be a whole number" },
+    { "", "tear_log_size", 0, "tear_log_size is 0" },
+    { "", "marker_rate", 0.0, "marker_rate [Hz] is 0" },
+    { "", "max_grasp_distance", -1.0, "max_grasp_distance [m] is -1" },
+    { "", "model_file", "cloth.obj", "must be an absolute path or package://" },
+    { "", "material", 5, "must be a group with entries like material/" },
+    { "cloth_pose", "position", list({ 0, 0 }), "a list of 2, must be a list of three numbers" },
+    { "cloth_pose", "position", list({ 0, 0, "up" }), "cloth_pose/position[2] is the text" },
+    { "cloth_pose", "position", list({ 0, 0, infinity }), "position[2] is inf, must be finite" },
+    { "cloth_pose", "rotation", list({ 0, 0, 0, 0 }), "must be a unit quaternion" },
+    { "rectangle", "columns", 1, "rectangle/columns is 1" },
+    { "rectangle", "seed", -1, "rectangle/seed is -1" },
+    { "rectangle", "pattern", "knitted", "alternating, irregular, one_diagonal" },
+    { "rectangle", "slits", list({ list({ 1, 2, 3 }) }), "rectangle/slits[0] is a list of 3" },
+    { "rectangle", "slits", 1, "must be a list, each entry a list of 4 numbers" },
+    { "pins", "edges", "top", "must be a list of names" },
+    { "pins", "particles", list({ 1.5 }), "must be a list of whole numbers" },
+    { "tearing", "weak_tear_strain", 99.0, "tearing/weak_tear_strain" },
+    { "contact", "friction", -0.1, "contact/friction" },
+    { "markers", "checks", 0, "markers/checks is 0" },
+    { "markers", "strain_range", list({ 1, 0 }), "must ascend" },
+    { "markers", "plain_color", list({ 0, 2, 0 }), "markers/plain_color[1] is 2" },
+  };
+  for (const Case& c : cases)
+  {
+    const std::string found = problemsWith(c.group, c.entry, c.value);
+    EXPECT_NE(found.find(c.expected), std::string::npos)
+        << c.group << "/" << c.entry << ": no '" << c.expected << "' in: " << found;
+  }
+}
+
+TEST(ParamsLoader, SuggestsTheNameThatWasMeant)
+{
+  EXPECT_NE(problemsWith("material", "stifness", 1.0).find("did you mean material/stiffness?"),
+            std::string::npos);
+  EXPECT_NE(problemsWith("", "stiffness", 1.0).find("did you mean material/stiffness?"),
+            std::string::npos);
+  EXPECT_NE(problemsWith("", "makrer_rate", 1.0).find("did you mean marker_rate?"),
+            std::string::npos);
+}
+
+TEST(ParamsLoader, SuggestsNothingForANameLikeNoOther)
+{
+  const std::string found = problemsWith("", "bananas", 1.0);
+
+  EXPECT_NE(found.find("there is no parameter bananas"), std::string::npos) << found;
+  EXPECT_EQ(found.find("did you mean"), std::string::npos) << found;
+}
+
+TEST(PlacedModel, HangsUprightByDefault)
+{
+  const cloth_tearing::PlacedModel placed = cloth_tearing::placedModel({});
+
+  ASSERT_EQ(placed.model.positions.size(), 900u);
+  for (const int p : placed.pinned)  // the upper edge, level at the origin's height
+  {
+    EXPECT_NEAR(placed.model.positions[p].z(), 0.0, 1e-9);
+  }
+  for (const cloth::Vec3d& x : placed.model.positions)
+  {
+    EXPECT_NEAR(x.y(), 0.0, 1e-9);
+    EXPECT_LE(x.z(), 1e-9);
+    EXPECT_GE(x.z(), -1.0 - 1e-9);
+  }
+  EXPECT_EQ(placed.pinned.size(), 30u);
+}
+
+TEST(PlacedModel, SaysWhyThereIsNoModel)
+{
+  cloth_tearing::NodeParams params;
+  params.model_file = "package://no_such_package_anywhere/cloth.obj";
+  try
+  {
+    cloth_tearing::placedModel(params);
+    FAIL() << "a package that does not exist was found";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("no package no_such_package_anywhere"),
+              std::string::npos)
+        << error.what();
+  }
+  params.model_file = "/nowhere/cloth.obj";
+  EXPECT_THROW(cloth_tearing::placedModel(params), std::runtime_error);
+}
+
+TEST(InClothFrame, MovesTheFloorToTheClothAndLeavesTheRest)
+{
+  cloth_tearing::NodeParams params;
+  params.simulation.contact.floor = true;
+  params.simulation.contact.floor_height = 0.25;
+
+  const cloth::SimulationParams simulation = cloth_tearing::inClothFrame(params);
+
+  EXPECT_DOUBLE_EQ(simulation.contact.floor_height, 0.25 - params.cloth_pose.position.z());
+  EXPECT_EQ(simulation.contact.bounds_min, params.simulation.contact.bounds_min);
+}
