@@ -264,8 +264,20 @@ TEST(IrregularRectangle, HasNoSlivers)
       RectangleParams params = sheet(n, n, RectanglePattern::IRREGULAR);
       params.seed = seed;
       params.jitter = 0.5;
-      EXPECT_GT(smallestAngle(rectangle(params)), 18) << "seed " << seed << ", n " << n;
+      EXPECT_GT(smallestAngle(rectangle(params)), 20) << "seed " << seed << ", n " << n;
     }
+  }
+}
+
+TEST(IrregularRectangle, TurnsNoTriangleOverWhereItsCellsAreLongAndUneven)
+{
+  RectangleParams params = sheet(40, 40, RectanglePattern::IRREGULAR);
+  params.width = 3;
+  params.grading = 0.2;
+  params.jitter = 0.5;
+  for (params.seed = 1; params.seed < 6; ++params.seed)
+  {
+    EXPECT_GT(smallestAngle(rectangle(params)), 4);
   }
 }
 
@@ -380,6 +392,16 @@ TEST(Slit, RunsAlongADiagonalWhereOneIsThere)
 
   ASSERT_EQ(model.positions.size(), 26u);
   EXPECT_EQ(model.positions[25], Vec3d(0, -2, 0));
+}
+
+TEST(Slit, StaysNearItsLineWhereSeveralPathsAreEquallyShort)
+{
+  // Two steps to the right and two along diagonals, in any order, lead from one end to the other.
+  const ClothModel model = rectangle(slitSheet({ { Vec2d(-2, -4), Vec2d(2, -2) } }));
+  const ClothModel other = rectangle(slitSheet({ { Vec2d(2, 0), Vec2d(-2, -2) } }));
+
+  EXPECT_EQ(std::count(model.positions.begin(), model.positions.end(), Vec3d(0, -3, 0)), 2);
+  EXPECT_EQ(std::count(other.positions.begin(), other.positions.end(), Vec3d(0, -1, 0)), 2);
 }
 
 TEST(Slit, CutsIrregularClothCleanly)

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "cloth_tearing/core/mesh.h"
+#include "cloth_tearing/core/mesh_builder.h"
 
 namespace cloth
 {
@@ -205,6 +206,7 @@ TEST(ObjReader, RefusesWithFileLineAndReason)
       "line 8: the edge between vertices 1 and 3 has 3 faces (lines 5, 6, 8)" },
     { square("f 1 3 2 4\n"), "line 5: the polygon crosses or touches itself" },
     { square("v 0.5 0 0\nf 1 2 3 5 4\n"), "line 6: the polygon crosses or touches itself" },
+    { square("v 2 0 0\nf 1 5 2 3 4\n"), "line 6: the polygon crosses or touches itself" },
     { "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "the model is 0 m across" },
     { "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no face is left that has an area" },
     // A Moebius band of five quads.
@@ -430,6 +432,18 @@ TEST(ObjReader, CollapsesEdgesWithoutLengthAndSaysWhere)
   EXPECT_TRUE(isClean(cloth));
 }
 
+TEST(ObjReader, CollapsesEdgesThatOnlyACollapseHasMadeTooShort)
+{
+  // 2 and 3 are too far apart to be joined, until 2 is joined to 1 between them.
+  const ObjImport cloth = import(
+      "v 0 0 0\nv 1.2e-6 0 0\nv -.8e-6 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 0\n"
+      "f 2 3 4\nf 3 2 5\nf 1 2 5\nf 1 5 3\nf 3 6 4\n");
+
+  EXPECT_EQ(cloth.report.collapsed_edges, 2);
+  EXPECT_EQ(cloth.report.particles, 3);
+  EXPECT_TRUE(isClean(cloth));
+}
+
 TEST(ObjReader, JudgesFacesAgainAfterACollapse)
 {
   // Two flaps stand on the edges 1-2 and 1-3, which become one when 2 and 3 are joined.
@@ -463,6 +477,31 @@ TEST(ObjReader, CutsTheFaceBeyondAVertexThatLiesOnItsEdge)
   EXPECT_TRUE(isClean(cloth));
 }
 
+TEST(ObjReader, CutsTheTextureBeyondASeamAtTheSamePlace)
+{
+  // The face beyond has an island of its own: the cut at a quarter of its edge is at u = 5.25.
+  const ObjImport cloth = import(
+      "v 0 0 0\nv 1 0 0\nv 4 0 0\nv 0 1 0\nv 1 -1 0\n"
+      "vt 0 0\nvt .1 0\nvt .4 0\nvt .1 -1\nvt 5 0\nvt 6 0\nvt 5 1\n"
+      "f 1/5 3/6 4/7\nf 1/1 2/2 3/3\nf 1/1 5/4 2/2\nf 5/4 3/3 2/2\n");
+
+  int found = 0;
+  for (const ModelTriangle& t : cloth.model.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const bool beyond = std::count(t.vertices.begin(), t.vertices.end(), 3) > 0;
+      if (beyond && t.vertices[k] == 1)
+      {
+        EXPECT_EQ(t.uv[k], Vec2d(5.25, 0));
+        ++found;
+      }
+    }
+  }
+  EXPECT_EQ(found, 2);
+  EXPECT_EQ(cloth.report.seam_edges, 2);
+}
+
 TEST(ObjReader, DropsAFlatFaceAtTheBorder)
 {
   const ObjImport cloth = import(
@@ -472,6 +511,22 @@ TEST(ObjReader, DropsAFlatFaceAtTheBorder)
   EXPECT_EQ(cloth.report.triangles, 2);
   EXPECT_EQ(cloth.report.borders, 1);
   EXPECT_TRUE(reports(cloth, 5, "no face lies beyond it; dropped"));
+  EXPECT_TRUE(isClean(cloth));
+}
+
+TEST(ObjReader, CutsAFaceWithAVertexOnEachOfItsEdges)
+{
+  // 1 2 3 are the corners, 4 5 6 lie on its edges, 7 8 9 outside.
+  const ObjImport cloth = import(
+      "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 -1 0\nv 2 2 0\nv -1 1 0\n"
+      "f 1 2 3\nf 2 1 4\nf 3 2 5\nf 1 3 6\n"
+      "f 4 1 7\nf 2 4 7\nf 5 2 8\nf 3 5 8\nf 6 3 9\nf 1 6 9\n");
+
+  EXPECT_EQ(cloth.report.triangles, 10);
+  EXPECT_EQ(cloth.report.dropped_faces, 3);
+  EXPECT_EQ(cloth.report.borders, 1);
+  EXPECT_EQ(cloth.report.border_springs, 6);
+  EXPECT_NEAR(cloth.report.area, 6, 1e-12);
   EXPECT_TRUE(isClean(cloth));
 }
 
@@ -523,6 +578,23 @@ TEST(ObjReader, WindsFacesAlikeAndReportsEachItTurned)
   EXPECT_TRUE(isClean(cloth));
 }
 
+TEST(ObjReader, WindsFacesTheWayOfTheMajorityAndTurnsTheirTextureToo)
+{
+  const ObjImport cloth =
+      import(std::string(SQUARE) + "v 2 0 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\n" +
+             "f 1/1 3/3 2/2\nf 1/1 3/3 4/4\nf 2/2 5/5 3/3\n");
+
+  EXPECT_EQ(cloth.report.turned_faces, 1);
+  EXPECT_TRUE(reports(cloth, 11, "turned over"));
+  for (const ModelTriangle& t : cloth.model.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(t.uv[k], Vec2d(cloth.model.positions[t.vertices[k]].head<2>()));
+    }
+  }
+}
+
 TEST(ObjReader, AcceptsBowTiesSeveralObjectsAndClosedSurfaces)
 {
   const ObjImport bow_tie =
@@ -556,17 +628,30 @@ TEST(ObjReader, LeavesOutVerticesInNoFace)
 
 TEST(ObjReader, MakesUpTextureFromTheBroadSideOfTheModel)
 {
-  // 1 x 2 in y and z, thin in x.
-  const ObjImport cloth = import("v 0 0 0\nv 0.1 2 0\nv 0.1 2 4\nv 0 0 4\nf 1 2 3 4\n");
-
-  EXPECT_EQ(cloth.report.untextured_faces, 1);
-  EXPECT_TRUE(reports(cloth, 5, "has no texture coordinates; they are made up by projection"));
-  for (const ModelTriangle& t : cloth.model.triangles)
+  struct Case
   {
-    for (int k = 0; k < 3; ++k)
+    const char* name;
+    const char* vertices;
+    int u, v;  // axes of the model
+  };
+  const Case cases[] = {
+    { "thin in x", "v 0 0 0\nv 0.1 2 0\nv 0.1 2 4\nv 0 0 4\n", 2, 1 },
+    { "thin in y", "v 0 0 0\nv 4 0.1 0\nv 4 0.1 2\nv 0 0 2\n", 0, 2 },
+    { "thin in z", "v 0 0 0\nv 4 0 0.1\nv 4 2 0.1\nv 0 2 0\n", 0, 1 },
+  };
+  for (const Case& c : cases)
+  {
+    const ObjImport cloth = import(std::string(c.vertices) + "f 1 2 3 4\n");
+
+    EXPECT_EQ(cloth.report.untextured_faces, 1) << c.name;
+    EXPECT_TRUE(reports(cloth, 5, "has no texture coordinates; they are made up by projection"));
+    for (const ModelTriangle& t : cloth.model.triangles)
     {
-      const Vec3d& place = cloth.model.positions[t.vertices[k]];
-      EXPECT_EQ(t.uv[k], Vec2d(place.z() / 4, place.y() / 4));
+      for (int k = 0; k < 3; ++k)
+      {
+        const Vec3d& place = cloth.model.positions[t.vertices[k]];
+        EXPECT_EQ(t.uv[k], Vec2d(place[c.u] / 4, place[c.v] / 4)) << c.name;
+      }
     }
   }
 }
@@ -578,6 +663,7 @@ TEST(ObjReader, MakesUpTextureWhereThatOfTheFileSpansNoArea)
   EXPECT_TRUE(reports(cloth, 6, "texture coordinates that span no area; others are made up"));
   EXPECT_EQ(cloth.report.untextured_faces, 1);
   EXPECT_EQ(cloth.report.flat_texture, 0);
+  EXPECT_EQ(cloth.model.triangles[0].uv[2], Vec2d(1, 1));
 }
 
 double shoelace(const std::vector<Vec2d>& corners)
@@ -822,6 +908,48 @@ TEST(ObjReader, AcceptsCleanlyOrRefusesWithAReasonWhateverTheTopology)
     }
   }
   EXPECT_GT(accepted, 1000);
+}
+
+// A disc of cloth crumpled onto a few points and lines: edges without length and flat faces by the
+// dozen, side by side.
+TEST(ObjReader, AcceptsCleanlyOrRefusesWithAReasonHoweverCrumpledTheCloth)
+{
+  std::mt19937_64 random(13);
+  RectangleParams params;
+  params.columns = params.rows = 5;
+  int accepted = 0;
+  int mended = 0;
+  for (int i = 0; i < 5000; ++i)
+  {
+    params.pattern = i % 2 == 0 ? RectanglePattern::ALTERNATING : RectanglePattern::ONE_DIAGONAL;
+    const ClothModel disc = rectangle(params);
+    std::string text;
+    for (std::size_t v = 0; v < disc.positions.size(); ++v)
+    {
+      const bool moved = random() % 3 == 0;
+      const int x = static_cast<int>(moved ? random() % 5 : v % 5);
+      const int y = static_cast<int>(moved ? random() % 5 : v / 5);
+      text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    }
+    for (const ModelTriangle& t : disc.triangles)
+    {
+      text += "f " + std::to_string(t.vertices[0] + 1) + " " + std::to_string(t.vertices[1] + 1) +
+              " " + std::to_string(t.vertices[2] + 1) + "\n";
+    }
+    try
+    {
+      const ObjImport cloth = import(text);
+      ASSERT_TRUE(isClean(cloth)) << text;
+      ++accepted;
+      mended += cloth.report.dropped_faces;
+    }
+    catch (const ImportError& error)
+    {
+      ASSERT_TRUE(holds(error.what(), "cloth.obj, line ")) << error.what();
+    }
+  }
+  EXPECT_GT(accepted, 1000);
+  EXPECT_GT(mended, 5000);
 }
 
 TEST(ObjReader, SaysThatAFileCannotBeOpenedOrRead)

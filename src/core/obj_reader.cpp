@@ -109,7 +109,14 @@ public:
     }
     ObjImport result;
     result.model = compact();
-    describe(result.model);
+    try
+    {
+      describe(result.model);
+    }
+    catch (const TopologyError& error)
+    {
+      problems_.refuse(0, error.what());
+    }
     std::stable_sort(report_.findings.begin(), report_.findings.end(),
                      [](const ImportFinding& a, const ImportFinding& b)
                      { return a.line < b.line; });

@@ -83,7 +83,8 @@ bool meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d, double
          liesOnSegment(c, d, a, tolerance) || liesOnSegment(c, d, b, tolerance);
 }
 
-// Sides that are no neighbours must not meet, neighbours must not fold back on one another.
+// Whether sides that are no neighbours meet. Neighbours that fold back on one another make the next
+// side meet one of them.
 bool crossesItself(const std::vector<Vec2d>& polygon, double tolerance)
 {
   const int n = static_cast<int>(polygon.size());
@@ -93,14 +94,6 @@ bool crossesItself(const std::vector<Vec2d>& polygon, double tolerance)
   for (int i = 0; i < n; ++i)
   {
     order[i] = i;
-    const Vec2d& corner = polygon[(i + 1) % n];
-    const Vec2d& after = polygon[(i + 2) % n];
-    const bool folds = std::abs(leftOf(polygon[i], corner, after)) <= tolerance &&
-                       (corner - polygon[i]).dot(after - corner) <= 0;
-    if (folds)
-    {
-      return true;
-    }
   }
   std::sort(order.begin(), order.end(), [&](int i, int j) { return low(i) < low(j); });
   for (int p = 0; p < n; ++p)
