@@ -11,6 +11,12 @@ namespace cloth
 namespace
 {
 
+/// Neighbouring triangles push shared particles in turn, each a little against the other. After a
+/// push deeper than this fraction of the reach they are looked at again, so that a small fast ball
+/// does not work its way through.
+constexpr Real DEEP_PUSH = Real(0.1);
+constexpr int MAX_PASSES = 8;
+
 /// Weights of the corners at the point of triangle (a, b, c) nearest to the origin
 /// (Ericson, Real-Time Collision Detection, 5.1.5).
 Vec3 nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -138,8 +144,9 @@ Vec3 velocityChange(const Vec3& relative, const Vec3& normal, Real friction)
   return approach * normal - (slip_speed > 0 ? Vec3(rubbed / slip_speed * slip) : Vec3::Zero());
 }
 
-void resolveFloor(Cloth& cloth, const ContactParams& params)
+void resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
 {
+  const auto h = static_cast<Real>(dt);
   const auto height = static_cast<Real>(params.floor_height + params.thickness);
   const auto friction = static_cast<Real>(params.floor_friction);
   ParticleState& state = cloth.state;
@@ -147,10 +154,72 @@ void resolveFloor(Cloth& cloth, const ContactParams& params)
   {
     if (state.position[i].z() < height && state.inverse_mass[i] > 0)
     {
+      const Vec3 change = velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
+      state.velocity[i] += change;
+      // What rubs off the speed rubs off the way too; what sticks has not moved at all.
+      const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
+      state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + h * change);
       state.position[i].z() = height;
-      state.velocity[i] += velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
     }
   }
+}
+
+/// Parts a triangle from a sphere. @return how far it had to be pushed [m]
+Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
+                     const ContactParams& params, Real dt)
+{
+  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
+  const Vec3 start = sphere.previous.cast<Real>();
+  const Vec3 end = sphere.center.cast<Real>();
+  const auto& p = triangle.particles;
+  Corners corners;
+  for (int k = 0; k < 3; ++k)
+  {
+    corners.start[k] = state.previous[p[k].index] - start;
+    corners.end[k] = state.position[p[k].index] - end;
+  }
+  Contact contact;
+  if (!firstTouch(corners, reach, contact))
+  {
+    return 0;
+  }
+  const Real sphere_inverse_mass =
+      sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
+  Real yielding = sphere_inverse_mass;  // inverse mass that feels a push at the contact
+  Vec3 velocity = -sphere.velocity.cast<Real>();
+  Real gap = -reach;
+  Real approach = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Real w = contact.weights[k];
+    yielding += w * w * state.inverse_mass[p[k].index];
+    velocity += w * state.velocity[p[k].index];
+    gap += w * contact.normal.dot(corners.end[k]);
+    approach += w * contact.normal.dot(corners.start[k] - corners.end[k]);
+  }
+  if (!(yielding > 0) || gap >= 0)
+  {
+    return 0;
+  }
+  // Out, but where it was inside from the start only as far as push_speed allows.
+  const Real most = static_cast<Real>(params.push_speed) * dt + approach;
+  const Real push = std::max(Real(0), std::min(-gap, most));
+  const Vec3 change = velocityChange(velocity, contact.normal, static_cast<Real>(params.friction));
+  // What rubs off the speed rubs off the way too.
+  const Vec3 rubbed = change - change.dot(contact.normal) * contact.normal;
+  const Vec3 shift = push * contact.normal + dt * rubbed;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Real share = contact.weights[k] * state.inverse_mass[p[k].index] / yielding;
+    state.position[p[k].index] += share * shift;
+    state.velocity[p[k].index] += share * change;
+  }
+  if (sphere.mass > 0.0)
+  {
+    sphere.center -= (sphere_inverse_mass / yielding * shift).cast<double>();
+    sphere.velocity -= (sphere_inverse_mass / yielding * change).cast<double>();
+  }
+  return push;
 }
 
 void rollOnFloor(Sphere& sphere, const ContactParams& params)
@@ -245,7 +314,7 @@ void SphereContact::resolve(Cloth& cloth, std::vector<Sphere>& spheres, const Co
   }
   if (params.floor)
   {
-    resolveFloor(cloth, params);
+    resolveFloor(cloth, params, dt);
   }
 }
 
@@ -268,53 +337,14 @@ void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactPar
     }
   }
 
-  const auto h = static_cast<Real>(dt);
-  const auto friction = static_cast<Real>(params.friction);
-  const Real sphere_inverse_mass =
-      sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
-  for (TriangleId id : near_)
+  Real push = reach;
+  for (int pass = 0; pass < MAX_PASSES && push > DEEP_PUSH * reach; ++pass)
   {
-    const auto& p = cloth.mesh.triangle(id).particles;
-    Corners corners;
-    for (int k = 0; k < 3; ++k)
+    push = 0;
+    for (TriangleId id : near_)
     {
-      corners.start[k] = state.previous[p[k].index] - start;
-      corners.end[k] = state.position[p[k].index] - end;
-    }
-    Contact contact;
-    if (!firstTouch(corners, reach, contact))
-    {
-      continue;
-    }
-    Real yielding = sphere_inverse_mass;  // inverse mass that feels a push at the contact
-    Vec3 velocity = -sphere.velocity.cast<Real>();
-    Real gap = -reach;
-    Real approach = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Real w = contact.weights[k];
-      yielding += w * w * state.inverse_mass[p[k].index];
-      velocity += w * state.velocity[p[k].index];
-      gap += w * contact.normal.dot(corners.end[k]);
-      approach += w * contact.normal.dot(corners.start[k] - corners.end[k]);
-    }
-    if (!(yielding > 0) || gap >= 0)
-    {
-      continue;
-    }
-    const Real push =
-        std::min(-gap, static_cast<Real>(params.push_speed) * h + std::max(Real(0), approach));
-    const Vec3 change = velocityChange(velocity, contact.normal, friction);
-    for (int k = 0; k < 3; ++k)
-    {
-      const Real share = contact.weights[k] * state.inverse_mass[p[k].index] / yielding;
-      state.position[p[k].index] += (share * push) * contact.normal;
-      state.velocity[p[k].index] += share * change;
-    }
-    if (sphere.mass > 0.0)
-    {
-      sphere.center -= (sphere_inverse_mass / yielding * push * contact.normal).cast<double>();
-      sphere.velocity -= (sphere_inverse_mass / yielding * change).cast<double>();
+      push = std::max(push, resolveTriangle(state, cloth.mesh.triangle(id), sphere, params,
+                                            static_cast<Real>(dt)));
     }
   }
 }
