@@ -15,7 +15,7 @@ namespace
 {
 
 // Fixed light from the upper left in front of the cloth, and as much from everywhere.
-const cloth::Vec3 LIGHT = cloth::Vec3(-0.45F, -0.60F, 0.66F).normalized();
+const cloth::Vec3 LIGHT = cloth::Vec3(-0.50F, -0.70F, 0.50F).normalized();
 constexpr float AMBIENT = 0.42F;
 
 constexpr float LEAST_AREA = 1e-10F;  // of a drawn triangle [m^2]

@@ -31,7 +31,7 @@ struct MarkerStyle
   std::array<double, 2> strain_range = { 0.0, 0.2 };  ///< blue to red [-], ascending
   cloth::Vec3d plain_color = cloth::Vec3d(0.85, 0.80, 0.70);  ///< red, green, blue [-], 0 to 1
   double edge_width = 0.004;                                  ///< of torn edges [m], > 0
-  double point_size = 0.012;  ///< weak points and held particles [m], > 0
+  double point_size = 0.016;  ///< weak points and held particles [m], > 0
 };
 
 /// The defaults make a usable node. `simulation` holds the height of the floor in frame_id here;
