@@ -110,7 +110,7 @@ void SimulationLoop::oneStep()
   ++request.answer.steps;
   --request.left;
   request.answer.tears += report.tears.size();
-  if (request.left == 0)
+  while (!requests_.empty() && requests_.front()->left == 0)
   {
     answerRequest({});
   }

@@ -36,27 +36,31 @@ public:
   auto call(Command&& command, Clock::duration patience)
   {
     using Answer = std::invoke_result_t<Command, Target&>;
-    struct Pending
-    {
-      explicit Pending(Command&& c) : task(std::forward<Command>(c)) {}
-      std::packaged_task<Answer(Target&)> task;
-      std::atomic<bool> claimed{ false };  // by the owner to run it, or by the caller to give up
-    };
-    auto pending = std::make_shared<Pending>(std::forward<Command>(command));
-    std::future<Answer> answer = pending->task.get_future();
+    using Work = std::packaged_task<Answer(Target&)>;
+    auto work = std::make_shared<Work>(std::forward<Command>(command));
+    std::future<Answer> answer = work->get_future();
+    // Claimed by the owner to run it, or by the caller to give up.
+    auto claimed = std::make_shared<std::atomic<bool>>(false);
     push(
-        [pending](Target& target)
+        [work = std::move(work), claimed](Target& target)
         {
-          if (!pending->claimed.exchange(true))
+          if (!claimed->exchange(true))
           {
-            pending->task(target);
+            (*work)(target);
           }
         });
-    if (answer.wait_for(patience) != std::future_status::ready && !pending->claimed.exchange(true))
+    if (answer.wait_for(patience) != std::future_status::ready && !claimed->exchange(true))
     {
       throw Busy("busy: the simulation did not take the command in time");
     }
-    return answer.get();
+    try
+    {
+      return answer.get();
+    }
+    catch (const std::future_error&)  // close() has dropped the only holder of `work`
+    {
+      throw Busy("busy: the simulation is ending");
+    }
   }
 
   /// Runs what is waiting. For the owner.

@@ -1,0 +1,377 @@
+// Claims of the loop and its queue: exact steps, commands between steps, patience, pace, ending.
+#include "cloth_tearing/core/simulation_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "scenes.h"
+
+namespace cloth
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// Longer than anything here takes on a busy machine.
+constexpr seconds DEADLINE{ 60 };
+
+std::unique_ptr<Simulation> smallSimulation()
+{
+  const ClothModel flat = sheet(0.5, 0.5, 6, 6);
+  return std::make_unique<Simulation>(upright(flat), edgeOf(flat, "top"), untearable());
+}
+
+SimulationLoop::Options options(Pace pace, milliseconds patience = DEADLINE)
+{
+  SimulationLoop::Options options;
+  options.pace = pace;
+  options.patience = patience;
+  return options;
+}
+
+void ignore(const Simulation&, const StepReport&)
+{
+}
+
+/// A door that a listener waits at, so that a step takes as long as a test wants.
+class Gate
+{
+public:
+  void open()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    open_ = true;
+    changed_.notify_all();
+  }
+  void pass()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++waiting_;
+    changed_.notify_all();
+    EXPECT_TRUE(changed_.wait_for(lock, DEADLINE, [this] { return open_; }));
+  }
+  void awaitVisitor()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, DEADLINE, [this] { return waiting_ > 0; }));
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool open_ = false;
+  int waiting_ = 0;
+};
+
+/// Waits until the answer is there, but not for ever.
+template <class Answer>
+Answer inTime(std::future<Answer>& future)
+{
+  if (future.wait_for(DEADLINE) != std::future_status::ready)
+  {
+    std::cerr << "no answer within the deadline\n";
+    std::abort();  // the future's own destructor would wait for ever
+  }
+  return future.get();
+}
+
+/// Waits for a condition that another thread brings about.
+template <class Condition>
+bool eventually(Condition&& condition)
+{
+  const Clock::time_point end = Clock::now() + DEADLINE;
+  while (!condition())
+  {
+    if (Clock::now() > end)
+    {
+      return false;
+    }
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+TEST(LoopSteps, ExactlyAsOftenAsAskedAndAnswersWhenItIsDone)
+{
+  std::atomic<int> listened{ 0 };
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP),
+                      [&](const Simulation&, const StepReport&) { ++listened; });
+
+  const StepAnswer answer = loop.step(137);
+
+  EXPECT_EQ(listened, 137);
+  EXPECT_EQ(answer.steps, 137u);
+  EXPECT_EQ(answer.step, 137u);
+  EXPECT_NEAR(answer.time, 0.137, 1e-9);
+  EXPECT_TRUE(answer.cut_short.empty());
+  Simulation alone = *smallSimulation();
+  run(alone, 137);
+  EXPECT_EQ(answer.state_hash, alone.stateHash()) << "as without a loop";
+}
+
+TEST(LoopSteps, ZeroOnlyAsks)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP), ignore);
+  loop.step(5);
+  const StepAnswer answer = loop.step(0);
+  EXPECT_EQ(answer.steps, 0u);
+  EXPECT_EQ(answer.step, 5u);
+}
+
+TEST(LoopSteps, ServesTwoClientsOneAfterTheOther)
+{
+  Gate gate;
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP),
+                      [&](const Simulation& s, const StepReport&)
+                      {
+                        if (s.stepCount() == 1)
+                        {
+                          gate.pass();
+                        }
+                      });
+  auto first = std::async(std::launch::async, [&] { return loop.step(300); });
+  gate.awaitVisitor();
+  auto second = std::async(std::launch::async, [&] { return loop.step(200); });
+  gate.open();
+
+  EXPECT_EQ(inTime(first).step, 300u);
+  const StepAnswer answer = inTime(second);
+  EXPECT_EQ(answer.steps, 200u);
+  EXPECT_EQ(answer.step, 500u);
+  EXPECT_EQ(loop.step(0).step, 500u) << "and then it stands";
+}
+
+TEST(LoopSteps, ZeroBehindALongStepAsksWhenThatIsDone)
+{
+  Gate gate;
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP),
+                      [&](const Simulation& s, const StepReport&)
+                      {
+                        if (s.stepCount() == 1)
+                        {
+                          gate.pass();
+                        }
+                      });
+  auto first = std::async(std::launch::async, [&] { return loop.step(30000); });
+  gate.awaitVisitor();
+  auto second = std::async(std::launch::async, [&] { return loop.step(0); });
+  gate.open();
+
+  EXPECT_EQ(inTime(first).step, 30000u);
+  const StepAnswer answer = inTime(second);
+  EXPECT_EQ(answer.steps, 0u);
+  EXPECT_EQ(loop.step(0).step, 30000u) << "nothing steps on";
+}
+
+TEST(LoopSteps, AreRefusedWhileItRunsByItself)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::FREE), ignore);
+  EXPECT_THROW(loop.step(1), Refusal);
+  EXPECT_THROW(loop.step(0), Refusal);
+  loop.pause();
+  const std::uint64_t before = loop.step(0).step;
+  EXPECT_EQ(loop.step(3).step, before + 3);
+}
+
+TEST(LoopCommands, AreAnsweredWhileALongStepIsUnderWay)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP), ignore);
+  auto endless = std::async(std::launch::async, [&] { return loop.step(1000000000); });
+  ASSERT_TRUE(
+      eventually([&] { return loop.call([](Simulation& s) { return s.stepCount(); }) > 10; }));
+
+  const GraspTaken taken = loop.call(
+      [](Simulation& s)
+      {
+        GraspRequest request;
+        request.point = s.cloth().state.position[35].cast<double>();
+        request.radius = 0.01;
+        return s.grasp(request);
+      });
+  EXPECT_EQ(taken.held_particles, 1);
+  EXPECT_EQ(loop.call([](Simulation& s) { return s.releaseAll(); }), 1);
+  loop.pause();
+  EXPECT_TRUE(loop.state().paused);
+  loop.resume();
+  EXPECT_GT(loop.call([](Simulation& s) { return s.summary(); }).step, 10u);
+
+  loop.reset();
+  const StepAnswer answer = inTime(endless);
+  EXPECT_LT(answer.steps, 1000000000u);
+  EXPECT_EQ(answer.cut_short, "the simulation was reset");
+}
+
+TEST(LoopCommands, CarryTheirExceptionsBack)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP), ignore);
+  EXPECT_THROW(loop.call([](Simulation& s) { s.release(77); }), Refusal);
+  EXPECT_THROW(loop.call([](Simulation&) -> int { throw std::out_of_range("x"); }),
+               std::out_of_range);
+  EXPECT_EQ(loop.step(1).step, 1u) << "and it goes on";
+}
+
+TEST(LoopCommands, AreBusyAfterTheirPatienceAndNotRunLater)
+{
+  Gate gate;
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP, milliseconds(20)),
+                      [&](const Simulation&, const StepReport&) { gate.pass(); });
+  auto stepping = std::async(std::launch::async, [&] { return loop.step(1); });
+  gate.awaitVisitor();
+  std::atomic<bool> ran{ false };
+
+  EXPECT_THROW(loop.call([&](Simulation&) { ran = true; }), Busy);
+
+  gate.open();
+  EXPECT_EQ(inTime(stepping).step, 1u);
+  EXPECT_TRUE(eventually(
+      [&]
+      {
+        try
+        {
+          loop.call([](Simulation&) {});
+          return true;
+        }
+        catch (const Busy&)
+        {
+          return false;
+        }
+      }));
+  EXPECT_FALSE(ran);
+}
+
+TEST(LoopPace, FreeRunsUntilPausedAndGoesOnAfterwards)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::FREE), ignore);
+  const auto count = [&] { return loop.call([](Simulation& s) { return s.stepCount(); }); };
+  ASSERT_TRUE(eventually([&] { return count() > 100; }));
+  loop.pause();
+  loop.pause();
+  const std::uint64_t paused = count();
+  EXPECT_EQ(loop.step(2).step, paused + 2) << "only what it is told";
+  loop.resume();
+  loop.resume();
+  EXPECT_TRUE(eventually([&] { return count() > paused + 100; }));
+}
+
+TEST(LoopPace, WallNeverRunsAheadOfTheClock)
+{
+  const Clock::time_point start = Clock::now();
+  SimulationLoop loop(smallSimulation(), options(Pace::WALL), ignore);
+  double time = 0.0;
+  ASSERT_TRUE(eventually(
+      [&]
+      {
+        time = loop.call([](Simulation& s) { return s.time(); });
+        const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+        EXPECT_LT(time, elapsed + 0.01);
+        return time > 0.3 || ::testing::Test::HasFailure();
+      }));
+}
+
+TEST(LoopPace, SaysHowItKeepsUp)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::WALL), ignore);
+  EXPECT_TRUE(eventually([&] { return loop.state().real_time_factor > 0.0; }));
+  EXPECT_LT(loop.state().real_time_factor, 1.2);
+  EXPECT_EQ(loop.state().pace, Pace::WALL);
+}
+
+TEST(LoopPace, CanStartPaused)
+{
+  SimulationLoop::Options paused = options(Pace::FREE);
+  paused.paused = true;
+  SimulationLoop loop(smallSimulation(), paused, ignore);
+  EXPECT_TRUE(loop.state().paused);
+  EXPECT_EQ(loop.step(0).step, 0u);
+}
+
+TEST(LoopFaults, PauseItAndCutTheStepShort)
+{
+  SimulationParams params = untearable();
+  params.max_speed = 0.5;  // free fall gets there after 51 ms
+  std::string fault;
+  SimulationLoop loop(
+      std::make_unique<Simulation>(sheet(0.5, 0.5, 4, 4), std::vector<int>{}, params),
+      options(Pace::STEP),
+      [&](const Simulation&, const StepReport& report) { fault = report.fault; });
+
+  const StepAnswer answer = loop.step(1000);
+
+  EXPECT_GT(answer.steps, 40u);
+  EXPECT_LT(answer.steps, 60u);
+  EXPECT_NE(answer.cut_short.find("max_speed = 0.5"), std::string::npos) << answer.cut_short;
+  EXPECT_TRUE(loop.state().paused);
+  EXPECT_EQ(loop.call([&](Simulation&) { return fault; }), answer.cut_short);
+}
+
+TEST(LoopEnd, GivesBusyToWhoeverWaitsForSteps)
+{
+  Gate gate;
+  auto loop = std::make_unique<SimulationLoop>(smallSimulation(), options(Pace::STEP),
+                                               [&](const Simulation& s, const StepReport&)
+                                               {
+                                                 if (s.stepCount() == 5)
+                                                 {
+                                                   gate.pass();
+                                                 }
+                                               });
+  SimulationLoop& running = *loop;
+  auto step = std::async(std::launch::async, [&] { return running.step(1000000000); });
+  gate.awaitVisitor();
+  auto ending = std::async(std::launch::async, [&] { loop.reset(); });
+  gate.open();
+
+  inTime(ending);
+  EXPECT_THROW(inTime(step), Busy);
+}
+
+TEST(Queue, RefusesOnceItIsClosed)
+{
+  CommandQueue<int> queue;
+  queue.close();
+  EXPECT_THROW(queue.call([](int&) {}, milliseconds(1)), Busy);
+}
+
+TEST(Queue, AnswersBusyAtOnceToThoseWhoWaitWhenItCloses)
+{
+  CommandQueue<int> queue;
+  std::atomic<bool> calling{ false };
+  auto call = std::async(std::launch::async,
+                         [&]
+                         {
+                           calling = true;
+                           queue.call([](int&) {}, std::chrono::hours(1));
+                         });
+  ASSERT_TRUE(eventually([&] { return calling.load(); }));
+  queue.close();
+  EXPECT_THROW(inTime(call), Busy);
+}
+
+TEST(Queue, WakesItsOwnerForACommand)
+{
+  CommandQueue<int> queue;
+  int target = 41;
+  auto call = std::async(std::launch::async,
+                         [&] { return queue.call([](int& t) { return ++t; }, DEADLINE); });
+  queue.waitUntil(Clock::now() + DEADLINE);
+  queue.runAll(target);
+  EXPECT_EQ(inTime(call), 42);
+}
+
+TEST(Queue, KeepsTheOrderOfOneCaller)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::FREE), ignore);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto before = loop.call([](Simulation& s) { return s.stepCount(); });
+    const auto after = loop.call([](Simulation& s) { return s.stepCount(); });
+    EXPECT_LE(before, after);
+  }
+}
+
+}  // namespace
+}  // namespace cloth
