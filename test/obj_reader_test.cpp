@@ -436,8 +436,8 @@ TEST(ObjReader, CollapsesEdgesThatOnlyACollapseHasMadeTooShort)
 {
   // 2 and 3 are too far apart to be joined, until 2 is joined to 1 between them.
   const ObjImport cloth = import(
-      "v 0 0 0\nv 1.2e-6 0 0\nv -.8e-6 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 0\n"
-      "f 2 3 4\nf 3 2 5\nf 1 2 5\nf 1 5 3\nf 3 6 4\n");
+      "v 0 0 0\nv 1.8e-6 0 0\nv -1.2e-6 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 0\n"
+      "f 2 3 4\nf 3 2 5\nf 1 2 5\nf 3 6 4\n");
 
   EXPECT_EQ(cloth.report.collapsed_edges, 2);
   EXPECT_EQ(cloth.report.particles, 3);
@@ -475,6 +475,75 @@ TEST(ObjReader, CutsTheFaceBeyondAVertexThatLiesOnItsEdge)
   EXPECT_TRUE(reports(cloth, 12, "its vertex 2 lies on the edge between vertices 1 and 3"));
   EXPECT_TRUE(reports(cloth, 12, "the face beyond (line 11) is cut in two there"));
   EXPECT_TRUE(isClean(cloth));
+}
+
+// Splits the line from a to b at the points between them, in any order, by faces without area.
+void addFlatFaces(int a, int b, const std::vector<int>& between, std::mt19937_64& random,
+                  std::vector<std::string>& faces)
+{
+  if (between.empty())
+  {
+    return;
+  }
+  const auto middle = between.begin() + static_cast<std::ptrdiff_t>(random() % between.size());
+  faces.push_back("f " + std::to_string(b) + " " + std::to_string(a) + " " +
+                  std::to_string(*middle) + "\n");
+  addFlatFaces(a, *middle, std::vector<int>(between.begin(), middle), random, faces);
+  addFlatFaces(*middle, b, std::vector<int>(middle + 1, between.end()), random, faces);
+}
+
+TEST(ObjReader, TakesOutAnyNumberOfFlatFacesInAnyOrder)
+{
+  // Six points lie on each edge of the triangle 1 2 3; faces without area join them to it, and
+  // beyond each edge they are the feet of a fan.
+  constexpr int BETWEEN = 6;
+  std::mt19937_64 random(17);
+  const Vec2d corners[3] = { Vec2d(0, 0), Vec2d(7, 0), Vec2d(0, 7) };
+  const Vec2d tips[3] = { Vec2d(3, -3), Vec2d(7, 7), Vec2d(-3, 3) };
+  for (int i = 0; i < 300; ++i)
+  {
+    std::string text = "v 0 0 0\nv 7 0 0\nv 0 7 0\n";
+    std::vector<std::string> faces = { "f 1 2 3\n" };
+    int last = 3;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int a = k + 1;
+      const int b = (k + 1) % 3 + 1;
+      const Vec2d step = (corners[b - 1] - corners[k]) / (BETWEEN + 1);
+      std::vector<int> between;
+      for (int n = 1; n <= BETWEEN; ++n)
+      {
+        const Vec2d place = corners[k] + n * step;
+        text += "v " + std::to_string(place.x()) + " " + std::to_string(place.y()) + " 0\n";
+        between.push_back(++last);
+      }
+      addFlatFaces(a, b, between, random, faces);
+      text += "v " + std::to_string(tips[k].x()) + " " + std::to_string(tips[k].y()) + " 0\n";
+      const int tip = ++last;
+      for (int n = 0; n <= BETWEEN; ++n)
+      {
+        const int from = n == 0 ? a : between[n - 1];
+        const int to = n == BETWEEN ? b : between[n];
+        faces.push_back("f " + std::to_string(to) + " " + std::to_string(from) + " " +
+                        std::to_string(tip) + "\n");
+      }
+    }
+    for (std::size_t n = faces.size() - 1; n > 0; --n)
+    {
+      std::swap(faces[n], faces[random() % (n + 1)]);
+    }
+    for (const std::string& face : faces)
+    {
+      text += face;
+    }
+    const ObjImport cloth = import(text);
+
+    ASSERT_EQ(cloth.report.dropped_faces, 3 * BETWEEN) << text;
+    ASSERT_EQ(cloth.report.border_springs, 6) << text;
+    ASSERT_EQ(cloth.report.triangles, 1 + 3 * BETWEEN + 3 * (BETWEEN + 1)) << text;
+    ASSERT_NEAR(cloth.report.area, 24.5 + 10.5 + 24.5 + 10.5, 1e-4) << text;
+    ASSERT_TRUE(isClean(cloth)) << text;
+  }
 }
 
 TEST(ObjReader, CutsTheTextureBeyondASeamAtTheSamePlace)
