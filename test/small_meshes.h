@@ -12,7 +12,7 @@
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/mesh.h"
 #include "cloth_tearing/core/mesh_builder.h"
-#include "cloth_tearing/core/tear_rules.h"
+#include "cloth_tearing/core/tearing.h"
 
 namespace cloth
 {
@@ -302,6 +302,38 @@ inline double sumOf(const std::vector<double>& values)
 inline Cloth clothOf(const ClothModel& model, const std::vector<int>& pinned = {})
 {
   return makeCloth(model, pinned, Material{}, RestShapeSource::IMPORTED, 0.0);
+}
+
+/// Moves a particle to `factor` times its place: its springs to particles at the origin stretch by
+/// that.
+inline void pullOut(Cloth& cloth, int particle, double factor)
+{
+  cloth.state.position[particle] *= static_cast<Real>(factor);
+}
+
+/// What one pass of tearing did.
+struct Pass
+{
+  std::vector<TearEvent> tears;
+  int postponed = 0;
+  double max_strain = 0.0;
+};
+
+/// One step's tearing, without obstacles.
+inline Pass tearOnce(Cloth& cloth, Tearing& tearing, std::vector<Grasp>& grasps)
+{
+  Pass pass;
+  pass.max_strain = tearing.scan(cloth);
+  pass.tears = tearing.tear(
+      cloth, grasps, [](const Vec3&) { return false; }, pass.postponed);
+  return pass;
+}
+
+inline Pass tearOnce(Cloth& cloth, const TearRules& rules)
+{
+  Tearing tearing(rules);
+  std::vector<Grasp> grasps;
+  return tearOnce(cloth, tearing, grasps);
 }
 
 /// The thesis to the letter: a spring tears on its own strain, without crack band or hem.
