@@ -200,6 +200,8 @@ TEST(ObjReader, RefusesWithFileLineAndReason)
     { square("f 1 2 2\n"), "line 5: the face names vertex 2 twice" },
     { square("f 1 2 3 1\n"), "line 5: the face names vertex 1 twice" },
     { square("f 1 2 3\nf 2 3 1\n"), "line 6: the same face as in line 5 again" },
+    { square("f 1 2 3\nf 1 3 4\nf 1 2 3\n"),
+      "1 problem:\n  cloth.obj, line 7: the same face as in line 5 again" },
     { square("f 1 2 3\nf 3 2 1\n"), "line 6: the same face as in line 5 again" },
     { square("f 1 2 3 4\nf 4 3 2 1\n"), "line 6: the same face as in line 5 again" },
     { square("f 1 2 3\nf 1 3 4\nv .5 .5 1\nf 1 3 5\n"),
