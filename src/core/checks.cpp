@@ -60,4 +60,13 @@ void check(std::vector<std::string>& found, const std::string& field, const Vec3
   }
 }
 
+void check(std::vector<std::string>& found, const std::string& field, const Quatd& rotation)
+{
+  const double length = rotation.norm();
+  if (!(std::abs(length - 1.0) < 1e-3))
+  {
+    found.push_back(field + " has length " + text(length) + ", must be a unit quaternion");
+  }
+}
+
 }  // namespace cloth

@@ -77,11 +77,7 @@ std::vector<std::string> problems(const DragTarget& target)
 {
   std::vector<std::string> found;
   check(found, "target position [m]", target.pose.position, MAX_COORDINATE);
-  const double norm = target.pose.rotation.norm();
-  if (!(std::abs(norm - 1.0) < 1e-3))
-  {
-    found.push_back("target orientation has length " + text(norm) + ", must be a unit quaternion");
-  }
+  check(found, "target orientation", target.pose.rotation);
   check(found, "linear_speed [m/s]", target.linear_speed, Range::aboveUpTo(0.0, 100.0));
   check(found, "angular_speed [rad/s]", target.angular_speed, Range::aboveUpTo(0.0, 100.0));
   return found;

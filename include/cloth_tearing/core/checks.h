@@ -35,6 +35,9 @@ void check(std::vector<std::string>& found, const std::string& field, double val
 void check(std::vector<std::string>& found, const std::string& field, const Vec3d& value,
            double limit);
 
+/// Adds a sentence to `found` unless `rotation` is a unit quaternion, to a thousandth.
+void check(std::vector<std::string>& found, const std::string& field, const Quatd& rotation);
+
 /// `value` as short as it reads back the same to six digits.
 std::string text(double value);
 
