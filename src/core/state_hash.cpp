@@ -81,26 +81,40 @@ void addTopology(Hash& hash, const Cloth& cloth)
   }
 }
 
-void addWorld(Hash& hash, const std::vector<Grasp>& grasps, const std::vector<Sphere>& spheres)
+void addPose(Hash& hash, const Pose& pose)
 {
-  for (const Grasp& grasp : grasps)
+  hash.add(pose.position);
+  hash.add(pose.rotation);
+}
+
+void addGrasp(Hash& hash, const Grasp& grasp)
+{
+  hash.add(grasp.id);
+  addPose(hash, grasp.pose);
+  for (const Grasp::Held& held : grasp.held)
   {
-    hash.add(grasp.id);
-    hash.add(grasp.pose.position);
-    hash.add(grasp.pose.rotation);
-    hash.add(static_cast<int>(grasp.held.size()));
-    hash.add(grasp.target ? 1 : 0);
+    hash.add(held.particle.index);
+    hash.add(held.offset);
   }
-  for (const Sphere& sphere : spheres)
+  hash.add(grasp.target ? 1 : 0);
+  if (grasp.target)
   {
-    hash.add(sphere.id);
-    hash.add(static_cast<int>(sphere.source));
-    hash.add(sphere.center);
-    hash.add(sphere.velocity);
-    hash.add(sphere.radius);
-    hash.add(sphere.mass);
-    hash.add(sphere.time_left);
+    addPose(hash, grasp.target->pose);
+    hash.add(grasp.target->linear_speed);
+    hash.add(grasp.target->angular_speed);
   }
+}
+
+void addSphere(Hash& hash, const Sphere& sphere)
+{
+  hash.add(sphere.id);
+  hash.add(static_cast<int>(sphere.source));
+  hash.add(sphere.center);
+  hash.add(sphere.velocity);
+  hash.add(sphere.jump);
+  hash.add(sphere.radius);
+  hash.add(sphere.mass);
+  hash.add(sphere.time_left);
 }
 
 }  // namespace
@@ -111,7 +125,14 @@ std::uint64_t stateHash(const Cloth& cloth, const std::vector<Grasp>& grasps,
   Hash hash;
   addParticles(hash, cloth);
   addTopology(hash, cloth);
-  addWorld(hash, grasps, spheres);
+  for (const Grasp& grasp : grasps)
+  {
+    addGrasp(hash, grasp);
+  }
+  for (const Sphere& sphere : spheres)
+  {
+    addSphere(hash, sphere);
+  }
   return hash.value();
 }
 
