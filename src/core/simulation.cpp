@@ -254,16 +254,22 @@ void Simulation::restLoosePieces(std::vector<std::string>& notes)
     return (x.array() < low.array()).any() || (x.array() > high.array()).any();
   };
   const auto attached = [&](ParticleId p) { return cloth_.attachments[p.index].held(); };
+  std::vector<char> hangs;  // by particle: its piece is held, and has been looked at
   for (int i = 0; i < cloth_.mesh.particleCount(); ++i)
   {
-    if (cloth_.damage.at_rest[i] || !beyond({ i }))
+    if (cloth_.damage.at_rest[i] || !beyond({ i }) || (!hangs.empty() && hangs[i]))
     {
       continue;
     }
     const std::vector<ParticleId> piece = pieces_.pieceOf(cloth_.mesh, { i });
     if (std::any_of(piece.begin(), piece.end(), attached))
     {
-      return;  // one piece in a thousand hangs out of the bounds on its pins: look again later
+      hangs.resize(cloth_.mesh.particleCount(), 0);
+      for (ParticleId p : piece)
+      {
+        hangs[p.index] = 1;
+      }
+      continue;
     }
     putToRest(piece);
     notes.push_back("a loose piece of " + std::to_string(piece.size()) +
@@ -338,7 +344,8 @@ GraspTaken Simulation::grasp(const GraspRequest& request)
   std::vector<std::string> found;
   check(found, "point [m]", request.point, MAX_COORDINATE);
   check(found, "radius [m]", request.radius, Range::between(0.0, MAX_COORDINATE));
-  check(found, "frame [m]", request.frame.position, MAX_COORDINATE);
+  check(found, "frame position [m]", request.frame.position, MAX_COORDINATE);
+  check(found, "frame orientation", request.frame.rotation);
   refuseIf(found);
 
   GraspTaken taken;
@@ -364,6 +371,7 @@ GraspTaken Simulation::grasp(const GraspRequest& request)
   Grasp grasp;
   grasp.id = next_grasp_++;
   grasp.pose = request.frame;
+  grasp.pose.rotation.normalize();
   for (ParticleId p : inside)
   {
     grasp.held.push_back(

@@ -1,0 +1,134 @@
+// Claims of the snapshot that leaves the core.
+#include "cloth_tearing/core/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scenes.h"
+
+namespace cloth
+{
+namespace
+{
+
+TEST(Surface, HasTheClothAsItIs)
+{
+  const ClothModel model = sheet(1.0, 1.0, 5, 4);
+  Simulation simulation(model, { 0, 4 }, vacuum());
+
+  const Surface surface = simulation.snapshot().surface;
+
+  EXPECT_EQ(surface.position.size(), 20u);
+  ASSERT_EQ(surface.triangles.size(), model.triangles.size());
+  for (std::size_t i = 0; i < model.triangles.size(); ++i)
+  {
+    EXPECT_EQ(surface.triangles[i].particles, model.triangles[i].vertices);
+    EXPECT_EQ(surface.triangles[i].uv, model.triangles[i].uv);
+  }
+  for (int i = 0; i < 20; ++i)
+  {
+    EXPECT_LT((surface.normal[i] - Vec3::UnitZ()).norm(), 1e-6);
+    EXPECT_EQ(surface.parents[i], (std::array<int, 2>{ i, i }));
+    EXPECT_NEAR(surface.strain[i], 0.0, 1e-6);
+  }
+  EXPECT_TRUE(surface.torn_edges.empty());
+  EXPECT_TRUE(surface.weak_points.empty());
+  ASSERT_EQ(surface.held.size(), 2u);
+  EXPECT_EQ(surface.held[1].particle, 4);
+  EXPECT_EQ(surface.held[1].grasp, 0u);
+  EXPECT_EQ(surface.revision, 0u);
+}
+
+TEST(Surface, TellsTimeStepEpochAndWhoHolds)
+{
+  Simulation simulation(sheet(1.0, 1.0, 5, 4), { 0 }, vacuum());
+  simulation.reset();
+  GraspRequest request;
+  request.point = Vec3d(0.5, -1.0, 0.0);
+  const std::uint64_t id = simulation.grasp(request).id;
+  simulation.throwSphere(ThrowRequest());
+  run(simulation, 3);
+
+  const Snapshot snapshot = simulation.snapshot();
+
+  EXPECT_EQ(snapshot.surface.step, 3u);
+  EXPECT_EQ(snapshot.surface.epoch, 1u);
+  EXPECT_NEAR(snapshot.surface.time, 0.003, 1e-12);
+  ASSERT_EQ(snapshot.surface.held.size(), 2u);
+  EXPECT_EQ(snapshot.surface.held[1].particle, 19);
+  EXPECT_EQ(snapshot.surface.held[1].grasp, id);
+  EXPECT_EQ(snapshot.grasps.size(), 1u);
+  EXPECT_EQ(snapshot.spheres.size(), 1u);
+}
+
+TEST(Surface, HasTheLargestStrainAtEachParticle)
+{
+  Cloth cloth = makeCloth(sheet(1.0, 1.0, 3, 3, RectanglePattern::ONE_DIAGONAL), {}, cotton(),
+                          RestShapeSource::IMPORTED, 0.0);
+  cloth.state.position[0].x() -= Real(0.05);  // 10 % of the cell, to its only right neighbour
+
+  const Surface surface = makeSurface(cloth);
+
+  EXPECT_NEAR(surface.strain[0], 0.1, 1e-5);
+  EXPECT_NEAR(surface.strain[1], 0.1, 1e-5);
+  EXPECT_NEAR(surface.strain[8], 0.0, 1e-6);
+}
+
+/// A hanging sheet with a ball thrown through it.
+Simulation torn()
+{
+  SimulationParams params = tearable();
+  const ClothModel flat = sheet(1.0, 1.0, 12, 12);
+  Simulation simulation(upright(flat), edgeOf(flat, "top"), params);
+  ThrowRequest thrown;
+  thrown.center = Vec3d(0.02, -0.4, -0.4);
+  thrown.velocity = Vec3d(0, 8, 0);
+  thrown.radius = 0.12;
+  simulation.throwSphere(thrown);
+  EXPECT_GT(run(simulation, 250).size(), 5u);
+  return simulation;
+}
+
+TEST(Surface, ShowsWhereTheClothIsTorn)
+{
+  const Simulation simulation = torn();
+  const Surface surface = simulation.snapshot().surface;
+  const Mesh& mesh = simulation.cloth().mesh;
+
+  EXPECT_EQ(surface.revision, simulation.revision());
+  EXPECT_EQ(surface.position.size(), static_cast<std::size_t>(mesh.particleCount()));
+  EXPECT_EQ(surface.parents.size(), surface.position.size());
+  int borders = 0;
+  for (int i = 0; i < mesh.springCount(); ++i)
+  {
+    borders += mesh.spring({ i }).border();
+  }
+  EXPECT_EQ(static_cast<int>(surface.torn_edges.size()), borders - 4 * 11) << "the rest is hem";
+  for (std::size_t i = 144; i < surface.parents.size(); ++i)
+  {
+    EXPECT_LT(surface.parents[i][0], static_cast<int>(i)) << "torn from something older";
+  }
+  for (std::size_t i = 0; i < surface.position.size(); ++i)
+  {
+    EXPECT_TRUE(surface.position[i].allFinite());
+    EXPECT_NEAR(surface.normal[i].norm(), 1.0, 1e-5);
+  }
+}
+
+TEST(Surface, DoesNotDrawPiecesAtRest)
+{
+  SimulationParams params = untearable();
+  params.contact.bounds_min = Vec3d::Constant(-2.0);
+  Simulation simulation(sheet(1.0, 1.0, 5, 4), {}, params);
+  run(simulation, 1500);
+  ASSERT_EQ(simulation.summary().pieces_at_rest, 1);
+
+  const Surface surface = simulation.snapshot().surface;
+
+  EXPECT_TRUE(surface.triangles.empty());
+  EXPECT_EQ(surface.position.size(), 20u) << "indices are particle ids";
+}
+
+}  // namespace
+}  // namespace cloth
