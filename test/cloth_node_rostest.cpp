@@ -86,6 +86,15 @@ double farthestFromPlane(const ClothSurface& surface)
   return farthest;
 }
 
+double areaOf(const geometry_msgs::Point& a, const geometry_msgs::Point& b,
+              const geometry_msgs::Point& c)
+{
+  const double u[] = { b.x - a.x, b.y - a.y, b.z - a.z };
+  const double v[] = { c.x - a.x, c.y - a.y, c.z - a.z };
+  return 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                          u[0] * v[1] - u[1] * v[0]);
+}
+
 std::size_t graspedParticles(const ClothSurface& surface)
 {
   return static_cast<std::size_t>(std::count_if(surface.held.begin(), surface.held.end(),
@@ -177,6 +186,22 @@ TEST_F(ClothNode, GivesTheSameClothForTheSameSteps)
   step(40);
 
   EXPECT_EQ(step(60).state_hash, once);
+}
+
+TEST_F(ClothNode, ServesTheStepsOfTwoClientsOneAfterTheOther)
+{
+  const std::uint64_t begin = step(0).step;
+  auto other = std::async(std::launch::async, [] { return step(300); });
+
+  const Step::Response mine = step(200);
+
+  const Step::Response theirs = other.get();
+  EXPECT_TRUE(mine.success && theirs.success) << mine.message << theirs.message;
+  EXPECT_EQ(step(0).step, begin + 500);
+  EXPECT_EQ(std::max(mine.step, theirs.step), begin + 500);
+  EXPECT_TRUE(std::min(mine.step, theirs.step) == begin + 200 ||
+              std::min(mine.step, theirs.step) == begin + 300)
+      << "one of them had to wait for the other";
 }
 
 TEST_F(ClothNode, AnswersOthersWhileALongStepRunsAndCutsItShortByReset)
@@ -302,6 +327,10 @@ TEST_F(ClothNode, ShowsTheSameTearsInSurfaceMarkersAndStatusAsInTheLog)
                          m.type == Marker::SPHERE_LIST;
     EXPECT_FALSE(is_list && m.action == Marker::ADD && m.points.empty()) << m.ns;
     EXPECT_TRUE(m.colors.empty() || m.colors.size() == m.points.size()) << m.ns;
+    for (std::size_t i = 0; m.type == Marker::TRIANGLE_LIST && i < m.points.size(); i += 3)
+    {
+      EXPECT_GT(areaOf(m.points[i], m.points[i + 1], m.points[i + 2]), 0.0);
+    }
     for (const geometry_msgs::Point& p : m.points)
     {
       ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << m.ns;
@@ -645,6 +674,21 @@ TEST(LiveClothNode, RunsInRealTimeUntilPausedAndIsSteppedOnlyThen)
   EXPECT_TRUE(ask<Trigger>("/live/resume").success) << "twice is once";
   status.waitFor("it runs again", [paused](const SimulationStatus& s)
                  { return !s.paused && s.step > paused + 100; });
+}
+
+TEST(RunawayClothNode, PausesByItselfAndSaysWhy)
+{
+  Collector<SimulationStatus> statuses("/nervous/status");
+
+  const SimulationStatus status = statuses.waitFor(
+      "a fault", [](const SimulationStatus& s) { return !s.fault.empty() && s.paused; });
+
+  EXPECT_NE(status.fault.find("speed"), std::string::npos) << status.fault;
+  EXPECT_GT(status.step, 10u);
+  EXPECT_EQ(step(0, "/nervous").step, status.step) << "it stands";
+  ASSERT_TRUE(ask<Trigger>("/nervous/reset").success);
+  statuses.waitFor("a new beginning", [&status](const SimulationStatus& s)
+                   { return s.epoch == status.epoch + 1 && s.fault.empty(); });
 }
 
 int main(int argc, char** argv)

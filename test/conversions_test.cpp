@@ -222,6 +222,18 @@ TEST(Requests, ArriveInTheClothFrame)
   EXPECT_EQ(converted[0].source, cloth::SphereSource::STREAMED);
 }
 
+TEST(ClothFrame, LiesAtItsOriginWithTheAxesOfFrameId)
+{
+  geometry_msgs::Transform from_table;  // a quarter turn about z
+  from_table.translation.x = 11.0;
+  from_table.rotation.z = std::sqrt(0.5);
+  from_table.rotation.w = std::sqrt(0.5);
+
+  const cloth::Pose pose = toClothFrame(from_table, PLACEMENT);
+
+  EXPECT_TRUE(pose.apply(cloth::Vec3d(2.0, 0.0, 0.0)).isApprox(cloth::Vec3d(1.0, -18.0, -30.0)));
+}
+
 TEST(Requests, KeepTheRotationWhenTheOrientationIsZero)
 {
   Drag::Request drag = dragRequest();
