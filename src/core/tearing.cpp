@@ -31,18 +31,25 @@ Vec2d textureAt(const Mesh& mesh, TriangleId t, ParticleId p)
   return triangle.uv[triangle.cornerOf(p)];
 }
 
-/// How many corners of the triangles at `p`, `p` apart, belong to grasp `grasp`.
+/// How many of the particles that springs join to `p` belong to grasp `grasp`.
 int heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
 {
   int held = 0;
+  const auto count = [&](SpringId s)
+  {
+    const Attachment& attachment = cloth.attachments[cloth.mesh.spring(s).other(p).index];
+    held += attachment.kind == Attachment::Kind::GRASP && attachment.grasp == grasp ? 1 : 0;
+  };
   cloth.mesh.forEachTriangleAt(p,
                                [&](TriangleId t)
                                {
-                                 for (ParticleId q : cloth.mesh.triangle(t).particles)
+                                 const Triangle& triangle = cloth.mesh.triangle(t);
+                                 const int k = triangle.cornerOf(p);
+                                 const SpringId last = triangle.springs[(k + 2) % 3];
+                                 count(triangle.springs[k]);
+                                 if (cloth.mesh.spring(last).border())
                                  {
-                                   const Attachment& attachment = cloth.attachments[q.index];
-                                   held += q != p && attachment.kind == Attachment::Kind::GRASP &&
-                                           attachment.grasp == grasp;
+                                   count(last);  // no other triangle begins with it
                                  }
                                });
   return held;
