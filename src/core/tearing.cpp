@@ -344,9 +344,9 @@ void Tearing::tearAlong(Cloth& cloth, ParticleId p, const TearPath& path, TearEv
   }
   const bool sound = path.springs.size() == 2;
   event.kind = sound ? TearKind::BASIC : TearKind::WEAK_POINT;
-  event.path = path.springs.front();
+  event.path = sound ? SpringId{} : path.springs.front();
   event.position = cloth.state.position[p.index].cast<double>();
-  event.uv = textureAt(cloth.mesh, cloth.mesh.spring(event.path).triangles[0], p);
+  event.uv = textureAt(cloth.mesh, cloth.mesh.spring(event.spring).triangles[0], p);
 
   const Edit edit = sound ? cloth.mesh.openAlong(p, path.springs[0], path.springs[1])
                           : cloth.mesh.detachAlong(p, path.springs[0]);
