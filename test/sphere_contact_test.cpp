@@ -224,6 +224,29 @@ TEST(Floor, StopsASlidingSheetByItsFriction)
   EXPECT_EQ(fastest(simulation.cloth().state), 0.0);
 }
 
+TEST(Floor, PushesOutWhatStartsBelowItOverSeveralSteps)
+{
+  SimulationParams params = untearable();
+  params.contact.floor = true;
+  params.contact.floor_height = -0.9;
+  params.contact.push_speed = 2.0;
+  const ClothModel flat = sheet(1.0, 1.0, 12, 12);
+  Simulation simulation(upright(flat), edgeOf(flat, "top"), params);
+  for (int i = 0; i < 300; ++i)
+  {
+    const std::vector<Vec3> before = simulation.cloth().state.position;
+    run(simulation, 1);
+    for (std::size_t p = 0; p < before.size(); ++p)
+    {
+      ASSERT_LT((simulation.cloth().state.position[p] - before[p]).norm(), 0.006) << "step " << i;
+    }
+  }
+  for (const Vec3& x : simulation.cloth().state.position)
+  {
+    EXPECT_GT(x.z(), -0.9);
+  }
+}
+
 TEST(Floor, BearsClothThatComesToRestAndStaysThereBitForBit)
 {
   for (SolverKind solver : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })

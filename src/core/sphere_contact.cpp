@@ -149,17 +149,19 @@ void resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
   const auto h = static_cast<Real>(dt);
   const auto height = static_cast<Real>(params.floor_height + params.thickness);
   const auto friction = static_cast<Real>(params.floor_friction);
+  const Real push = static_cast<Real>(params.push_speed) * h;  // for cloth that was below it
   ParticleState& state = cloth.state;
   for (int i = 0; i < state.size(); ++i)
   {
-    if (state.position[i].z() < height && state.inverse_mass[i] > 0)
+    const Real z = state.position[i].z();
+    if (z < height && state.inverse_mass[i] > 0)
     {
       const Vec3 change = velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
       state.velocity[i] += change;
       // What rubs off the speed rubs off the way too; what sticks has not moved at all.
       const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
       state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + h * change);
-      state.position[i].z() = height;
+      state.position[i].z() = std::max(z, std::min(height, state.previous[i].z() + push));
     }
   }
 }
