@@ -92,6 +92,16 @@ TEST(Wind, IsFeltAgainstTheMotionOfTheCloth)
       << "held up by still air";
 }
 
+TEST(Wind, PressesOnNoMoreThanTheRestArea)
+{
+  Cloth cloth = triangle(0.2);
+  const Vec3d force = totalForce(cloth, windOnly(Vec3d(0, 0, 5), 0.5));
+  cloth.state.position[1].x() = 20;
+  EXPECT_LT((totalForce(cloth, windOnly(Vec3d(0, 0, 5), 0.5)) - force).norm(), 1e-7);
+  cloth.state.position[1].x() = Real(0.1);
+  EXPECT_LT((totalForce(cloth, windOnly(Vec3d(0, 0, 5), 0.5)) - 0.5 * force).norm(), 1e-7);
+}
+
 TEST(Wind, LeavesHeldParticlesAlone)
 {
   Cloth cloth = triangle(0.2);

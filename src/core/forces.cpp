@@ -1,6 +1,9 @@
 // Gravity, air friction and wind as accelerations.
 #include "cloth_tearing/core/forces.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cloth
 {
 namespace
@@ -26,7 +29,9 @@ void addWind(const Cloth& cloth, const Environment& environment, std::vector<Vec
     }
     const Vec3 velocity = (state.velocity[a] + state.velocity[b] + state.velocity[c]) / Real(3);
     const Real normal_speed = (wind - velocity).dot(normal) / twice_area;
-    const Vec3 on_corner = (drag * normal_speed / Real(6)) * normal;
+    // Overstretched cloth has grown by its holes: no more than its rest area resists the air.
+    const auto area = std::min(twice_area / Real(2), static_cast<Real>(cloth.rest.area[i]));
+    const Vec3 on_corner = (drag * normal_speed * area / (Real(3) * twice_area)) * normal;
     for (int p : { a, b, c })
     {
       acceleration[p] += state.inverse_mass[p] * on_corner;

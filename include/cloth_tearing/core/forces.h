@@ -10,8 +10,8 @@ namespace cloth
 {
 
 /// Writes the acceleration of every particle [m/s^2] (2.1.1). Wind presses on each triangle along
-/// its normal, in proportion to its area and to the normal speed of the air against it (Provot
-/// 1995); held particles get none.
+/// its normal, in proportion to its area (its rest area at most) and to the normal speed of the air
+/// against it (Provot 1995); held particles get none.
 void outerAccelerations(const Cloth& cloth, const Environment& environment,
                         std::vector<Vec3>& acceleration);
 
