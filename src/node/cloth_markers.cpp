@@ -18,7 +18,7 @@ namespace
 const cloth::Vec3 LIGHT = cloth::Vec3(-0.50F, -0.70F, 0.50F).normalized();
 constexpr float AMBIENT = 0.42F;
 
-constexpr float LEAST_AREA = 1e-10F;  // of a drawn triangle [m^2]
+constexpr float LEAST_AREA = 1e-12F;  // of a drawn triangle [m^2]
 constexpr int DELETIONS = 30;         // times that a departed sphere is told
 constexpr double GRASP_AXIS = 0.06;   // length of a drawn grasp frame's axes [m]
 
