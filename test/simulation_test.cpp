@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/state_hash.h"
 #include "scenes.h"
 
@@ -441,6 +442,22 @@ TEST(Parameters, AreRefusedAllAtOnceByName)
     }
   }
   EXPECT_TRUE(problems(SimulationParams()).empty());
+}
+
+TEST(Model, IsRefusedTooFarFromItsOriginForFloatPositions)
+{
+  ClothModel model = sheet(1, 1, 3, 3);
+  model.positions[4].y() = MAX_COORDINATE + 1.0;
+  try
+  {
+    Simulation(model, {}, SimulationParams());
+    FAIL() << "must be refused";
+  }
+  catch (const Refusal& refusal)
+  {
+    EXPECT_NE(std::string(refusal.what()).find("reaches 1001 m"), std::string::npos)
+        << refusal.what();
+  }
 }
 
 TEST(Summary, CountsAThirtyByThirtyRectangleAsTheThesisDoes)

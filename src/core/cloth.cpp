@@ -1,7 +1,11 @@
 // Builds a cloth, and keeps its arrays in step with its mesh.
 #include "cloth_tearing/core/cloth.h"
 
+#include <algorithm>
+
+#include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/pieces.h"
+#include "cloth_tearing/core/refusal.h"
 
 namespace cloth
 {
@@ -30,6 +34,20 @@ std::vector<char> hemParticles(const std::vector<Vec3d>& positions, const std::v
     }
   }
   return hem;
+}
+
+void refuseFarAway(const std::vector<Vec3d>& positions)
+{
+  double farthest = 0.0;
+  for (const Vec3d& x : positions)
+  {
+    farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  }
+  if (farthest > MAX_COORDINATE)
+  {
+    throw Refusal("the model reaches " + text(farthest) + " m from its origin, must be at most " +
+                  text(MAX_COORDINATE) + ": scale it down or move it there");
+  }
 }
 
 Damage undamaged(const Mesh& mesh)
@@ -140,6 +158,7 @@ Vec3 Cloth::direction(SpringId s, ParticleId from) const
 Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const Material& material,
                 RestShapeSource rest_shape, double hem_width)
 {
+  refuseFarAway(model.positions);
   Cloth cloth;
   cloth.material = material;
   cloth.mesh = Mesh(static_cast<int>(model.positions.size()), model.triangles);

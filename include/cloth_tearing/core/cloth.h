@@ -60,7 +60,7 @@ struct Cloth
 
 /// @param pinned particles that stand still
 /// @param hem_width see TearRules [m]
-/// @throws TopologyError, Refusal
+/// @throws TopologyError, or Refusal of a model beyond MAX_COORDINATE or without lengths and areas
 Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const Material& material,
                 RestShapeSource rest_shape, double hem_width);
 
