@@ -25,18 +25,18 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     const Vec3 moved = b - a;
     const Vec3 d = (state.previous[spring.b] - state.previous[spring.a]) + moved;
     const Real length = std::sqrt(d.squaredNorm());
-    if (!(w > 0) || !(spring.stiffness > 0) || !(length > 0))
+    if (!(w > 0) || !(length > 0))
     {
       continue;
     }
-    const Vec3 n = d / length;
-    // compliance and damping of the constraint over this step; see Macklin et al. 2016, eq. 26
-    const Real compliance = Real(1) / (spring.stiffness * dt * dt);
-    const Real damping = spring.damping / (spring.stiffness * dt);
-    const Real lambda =
-        ((length - spring.rest) + damping * n.dot(moved)) / ((Real(1) + damping) * w + compliance);
-    a += (wa * lambda) * n;
-    b -= (wb * lambda) * n;
+    // Macklin et al. 2016, eq. 26, times stiffness dt^2: no compliance to divide by.
+    const Real stiffness = spring.stiffness * dt * dt;
+    const Real damping = spring.damping * dt;
+    const Real lambda = (stiffness * (length - spring.rest) + damping * (d.dot(moved) / length)) /
+                        ((stiffness + damping) * w + Real(1));
+    const Real pull = lambda / length;
+    a += (wa * pull) * d;
+    b -= (wb * pull) * d;
   }
 }
 

@@ -15,7 +15,7 @@ struct TearRules
   double tear_strain = 0.30;       ///< sound cloth tears above this [-], > 0 (3.2.1)
   double weak_tear_strain = 0.22;  ///< at a weak point [-], > 0, <= tear_strain (3.2.2)
   double one_point_tear_strain =
-      0.16;  ///< at a one-point connection [-], > 0, <= tear_strain (3.2.3)
+      0.22;  ///< at a one-point connection [-], > 0, <= tear_strain (3.2.3)
 
   /// An intact spring tears on the mean stretch of the cloth within this distance [m], >= 0; 0 =
   /// on its own strain alone.
