@@ -440,6 +440,10 @@ TEST_F(ClothNode, IsTornByAThrownSphereThatIsGoneAfterItsLifetime)
   EXPECT_NE(thrown.sphere_id, 0u);
 
   EXPECT_GT(step(100).tears, 0u);
+  const GetTearEvents::Response log = eventsSince(first_event_);
+  ASSERT_FALSE(log.events.empty());
+  EXPECT_EQ(log.events[0].cause, TearEvent::THROWN_SPHERE);
+  EXPECT_EQ(log.events[0].cause_id, thrown.sphere_id);
 
   Collector<SimulationStatus> status("/cloth/status");
   EXPECT_EQ(status.first().spheres, 1u);

@@ -239,7 +239,9 @@ TearCause Simulation::causeOf(const Vec3d& position) const
   for (const Sphere& sphere : spheres_)
   {
     const double distance = (sphere.center - position).norm() - sphere.radius;
-    consider(CauseKind::SPHERE, sphere.id, std::max(0.0, distance));
+    const bool thrown = sphere.source == SphereSource::THROWN;
+    consider(thrown ? CauseKind::THROWN_SPHERE : CauseKind::SPHERE, sphere.id,
+             std::max(0.0, distance));
   }
   return nearest.kind == CauseKind::NONE ? TearCause{} : nearest;
 }

@@ -35,9 +35,17 @@ SimulationLoop::SimulationLoop(std::unique_ptr<Simulation> simulation, const Opt
 
 SimulationLoop::~SimulationLoop()
 {
+  stop();
+}
+
+void SimulationLoop::stop()
+{
   ending_ = true;
   queue_.close();
-  thread_.join();
+  if (thread_.joinable())
+  {
+    thread_.join();
+  }
 }
 
 void SimulationLoop::run()

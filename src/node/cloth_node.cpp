@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <thread>
 
 #include "cloth_tearing/core/refusal.h"
 
@@ -19,7 +18,6 @@ namespace
 constexpr std::uint32_t REQUEST_THREADS = 4;
 constexpr std::uint32_t STEP_THREADS = 2;
 constexpr double COMPLAIN_EVERY = 5.0;  // [s], about what comes on a topic
-constexpr std::chrono::milliseconds CUT_AGAIN(10);
 
 ros::NodeHandle servedBy(ros::NodeHandle node, ros::CallbackQueue& queue)
 {
@@ -69,29 +67,11 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
 
 ClothNode::~ClothNode()
 {
-  stopping_ = true;
   frames_.stopWaiting();
-  cutSteps();
+  loop_->stop();  // whoever waits for it is answered
   spinner_.stop();
   step_spinner_.stop();
   publisher_.stop();
-}
-
-/// A step that began before stopping_ was set has to end first; none begins afterwards.
-void ClothNode::cutSteps()
-{
-  while (steps_under_way_ > 0)
-  {
-    try
-    {
-      loop_->reset();
-    }
-    catch (const cloth::Busy&)
-    {
-      // The loop is within a long step: it will hear of it.
-    }
-    std::this_thread::sleep_for(CUT_AGAIN);
-  }
 }
 
 // -- requests
@@ -250,17 +230,6 @@ void ClothNode::onGetTearEvents(const GetTearEvents::Request& request,
 
 void ClothNode::onStep(const Step::Request& request, Step::Response& response)
 {
-  struct UnderWay
-  {
-    explicit UnderWay(std::atomic<int>& count) : count_(count) { ++count_; }
-    ~UnderWay() { --count_; }
-    std::atomic<int>& count_;
-  };
-  const UnderWay under_way(steps_under_way_);
-  if (stopping_)
-  {
-    throw cloth::Refusal("the node is ending");
-  }
   fill(response, loop_->step(request.steps));
   publisher_.touch();
 }

@@ -69,6 +69,8 @@ std::uint8_t toMessage(cloth::CauseKind kind)
       return TearEvent::GRASP;
     case cloth::CauseKind::SPHERE:
       return TearEvent::SPHERE;
+    case cloth::CauseKind::THROWN_SPHERE:
+      return TearEvent::THROWN_SPHERE;
     case cloth::CauseKind::NONE:
       break;
   }

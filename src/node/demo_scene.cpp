@@ -24,7 +24,8 @@ namespace
 /// How long the scene waits for the node, on the wall clock [s].
 constexpr double PATIENCE = 120.0;
 
-const char* const KIND_NAMES[] = { "basic", "weak_point", "one_point", "released" };
+const std::array<const char*, 4> KIND_NAMES = { "basic", "weak_point", "one_point", "released" };
+const std::array<const char*, 4> CAUSE_NAMES = { "nobody", "grasp", "sphere", "thrown sphere" };
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& x)
 {
@@ -51,7 +52,7 @@ public:
   {
     waitUntil([this] { return time_ >= 0.0 && size_.x() > 0.0; }, "the node");
     surface_.shutdown();
-    waitFor(1.5);
+    waitFor(ros::NodeHandle("~").param("settle_time", 1.5));
 
     say("the gripper takes hold and pulls");
     const std::uint64_t grasp = takeHold(at(0.82, 0.55, 0.0), 0.04 * size_.z());
@@ -85,14 +86,12 @@ private:
     for (const TearEvent& event : message.events)
     {
       ++kinds_.at(event.kind);
-      const char* const cause = event.cause == TearEvent::GRASP    ? "grasp "
-                                : event.cause == TearEvent::SPHERE ? "sphere "
-                                                                   : "no cause ";
       std::printf(
-          "tear %llu %s at (%.2f, %.2f, %.2f) m, strain %.2f over %.2f, %.2f N, by %s%llu,"
+          "tear %llu %s at (%.2f, %.2f, %.2f) m, strain %.2f over %.2f, %.2f N, by %s %llu,"
           " pieces %u\n",
-          static_cast<unsigned long long>(event.sequence), KIND_NAMES[event.kind], event.position.x,
-          event.position.y, event.position.z, event.strain, event.threshold, event.tension, cause,
+          static_cast<unsigned long long>(event.sequence), KIND_NAMES.at(event.kind),
+          event.position.x, event.position.y, event.position.z, event.strain, event.threshold,
+          event.tension, CAUSE_NAMES.at(event.cause),
           static_cast<unsigned long long>(event.cause_id), event.pieces);
     }
   }

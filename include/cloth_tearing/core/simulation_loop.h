@@ -62,7 +62,11 @@ public:
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
 
-  /// Ends the thread after the step it is in; whoever waits for an answer gets Busy.
+  /// Ends the thread after the step it is in; whoever waits for an answer, or asks from now on,
+  /// gets Busy.
+  void stop();
+
+  /// Stops.
   ~SimulationLoop();
 
   /// Runs `command(Simulation&)` between two steps and returns its answer, or rethrows what it

@@ -23,7 +23,8 @@ enum class CauseKind
 {
   NONE,
   GRASP,
-  SPHERE,
+  SPHERE,         ///< of a stream
+  THROWN_SPHERE,  ///< with an id of our own
 };
 
 /// The grasp or sphere nearest to a tear.

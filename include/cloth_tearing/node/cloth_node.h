@@ -9,7 +9,6 @@
 #include <ros/subscriber.h>
 #include <std_srvs/Trigger.h>
 
-#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,7 +50,6 @@ private:
   std::string refusal(const std::string& name, Work work);
   template <class Command>
   auto change(Command command);
-  void cutSteps();
 
   Placement placement_;
   ros::CallbackQueue queue_;
@@ -63,8 +61,6 @@ private:
   std::unique_ptr<cloth::SimulationLoop> loop_;
   std::vector<ros::ServiceServer> services_;
   ros::Subscriber spheres_;
-  std::atomic<bool> stopping_{ false };
-  std::atomic<int> steps_under_way_{ 0 };
   ros::AsyncSpinner spinner_;
   ros::AsyncSpinner step_spinner_;
 };
