@@ -93,6 +93,64 @@ TEST(PatchStrain, IsNeverMoreThanTheSpringsOwn)
   EXPECT_GT(less, 100);
 }
 
+/// The definition of the patch strain on a flat, convex sheet, triangle by triangle.
+double byDefinition(const Cloth& cloth, const ClothModel& model, SpringId s, double radius)
+{
+  const auto& ends = cloth.mesh.spring(s).particles;
+  const Vec3d from = model.positions[ends[0].index];
+  const Vec3d to = model.positions[ends[1].index];
+  const Vec3d along = (to - from).normalized();
+  double weights = 0.0;
+  double sum = 0.0;
+  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
+  {
+    const auto& corners = cloth.mesh.triangle({ i }).particles;
+    std::array<Vec3d, 3> flat;
+    std::array<Vec3d, 3> now;
+    for (int k = 0; k < 3; ++k)
+    {
+      flat[k] = model.positions[corners[k].index];
+      now[k] = cloth.state.position[corners[k].index].cast<double>();
+    }
+    const double r = ((flat[0] + flat[1] + flat[2]) / 3.0 - 0.5 * (from + to)).norm();
+    Eigen::Matrix2d rest;
+    rest << (flat[1] - flat[0]).head<2>(), (flat[2] - flat[0]).head<2>();
+    Eigen::Matrix<double, 3, 2> sides;
+    sides << now[1] - now[0], now[2] - now[0];
+    if (r < radius)
+    {
+      const double weight = 0.5 * rest.determinant() * (1.0 - r * r / (radius * radius));
+      const Eigen::Matrix2d inverse{ rest.inverse() };
+      weights += weight;
+      sum += weight * (sides * (inverse * along.head<2>())).squaredNorm();
+    }
+  }
+  return std::sqrt(sum / weights) - 1.0;
+}
+
+TEST(PatchStrain, IsTheWeightedMeanOverTheTrianglesOfTheDisc)
+{
+  const ClothModel model = sheet(12, 12, RectanglePattern::IRREGULAR, 2.0);
+  Cloth cloth = clothOf(model);
+  deform(cloth, model,
+         [](const Vec3d& x)
+         {
+           return Vec3d(x.x() + 0.3 * x.x() * x.y(), 1.2 * x.y() - 0.2 * x.x() * x.x(),
+                        0.2 * x.y() * x.y());
+         });
+
+  PatchStrain patch;
+  int compared = 0;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    const double expected = byDefinition(cloth, model, { i }, 0.5);
+    const double own = cloth.strain({ i });
+    EXPECT_NEAR(patch.read(cloth, { i }, 0.5), std::min(own, expected), 1e-5) << "spring " << i;
+    compared += expected < own ? 1 : 0;
+  }
+  EXPECT_GT(compared, 50);
+}
+
 TEST(PatchStrain, IsTheSpringsOwnWithoutARadius)
 {
   const ClothModel model = sheet(6, 6, RectanglePattern::IRREGULAR);

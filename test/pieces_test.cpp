@@ -15,21 +15,7 @@ namespace
 /// A grid of particles 0 to 15 and, apart from it, a kite of 16 to 19.
 ClothModel twoSheets()
 {
-  ClothModel model = sheet(4, 4, RectanglePattern::ONE_DIAGONAL);
-  const int first = static_cast<int>(model.positions.size());
-  for (const Vec3d& place : kite().positions)
-  {
-    model.positions.push_back(place + Vec3d(10, 0, 0));
-  }
-  for (ModelTriangle t : kite().triangles)
-  {
-    for (int& vertex : t.vertices)
-    {
-      vertex += first;
-    }
-    model.triangles.push_back(t);
-  }
-  return model;
+  return beside(sheet(4, 4, RectanglePattern::ONE_DIAGONAL), kite(), 10.0);
 }
 
 TEST(Pieces, AreOneWhereverTrianglesShareAParticle)

@@ -20,7 +20,7 @@ namespace
 {
 
 constexpr int EDITS = 1000000;            // that succeed, in an ordinary run
-constexpr int THOROUGH_EDITS = 20000000;  // with CLOTH_TEARING_THOROUGH=1
+constexpr int THOROUGH_EDITS = 10000000;  // with CLOTH_TEARING_THOROUGH=1
 constexpr std::uint64_t SEEDS = 8;
 constexpr int SMALL = 200;          // meshes of fewer triangles are checked whole after every edit
 constexpr int BATCH = 250;          // others after so many

@@ -138,6 +138,25 @@ inline ClothModel wheelOnAPoint()
   return model;
 }
 
+/// Both models, the second moved by `shift` along x; its particles are numbered after the first's.
+inline ClothModel beside(ClothModel first, const ClothModel& second, double shift)
+{
+  const int offset = static_cast<int>(first.positions.size());
+  for (const Vec3d& place : second.positions)
+  {
+    first.positions.push_back(place + Vec3d(shift, 0, 0));
+  }
+  for (ModelTriangle t : second.triangles)
+  {
+    for (int& vertex : t.vertices)
+    {
+      vertex += offset;
+    }
+    first.triangles.push_back(t);
+  }
+  return first;
+}
+
 /// A square sheet of `side` [m], hanging from y = 0.
 inline ClothModel sheet(int columns, int rows, RectanglePattern pattern, double side = 1.0,
                         std::uint64_t seed = 1)

@@ -21,21 +21,10 @@ const RectanglePattern ALL_PATTERNS[] = { RectanglePattern::ONE_DIAGONAL,
 /// Kites in a row, 10 m apart; kite i has particles 4 i to 4 i + 3.
 Cloth kites(int count)
 {
-  ClothModel model;
-  for (int i = 0; i < count; ++i)
+  ClothModel model = kite();
+  for (int i = 1; i < count; ++i)
   {
-    for (const Vec3d& place : kite().positions)
-    {
-      model.positions.push_back(place + Vec3d(10.0 * i, 0, 0));
-    }
-    for (ModelTriangle t : kite().triangles)
-    {
-      for (int& vertex : t.vertices)
-      {
-        vertex += 4 * i;
-      }
-      model.triangles.push_back(t);
-    }
+    model = beside(model, kite(), 10.0 * i);
   }
   return clothOf(model);
 }
@@ -213,14 +202,18 @@ TEST(TearOrder, IsWorstFirst)
 
 TEST(TearOrder, GoesByStrainOverThresholdNotByStrain)
 {
-  Cloth cloth = kites(2);
+  Cloth cloth = clothOf(beside(kite(), bowTie(2, 2), 10.0));
+  const SpringId sound = springBetween(cloth.mesh, 0, 1);
+  const SpringId at_a_point = springBetween(cloth.mesh, 4, 4 + 5);
   stretchKite(cloth, 0, 1.6);  // 1.2 times the threshold of sound cloth
-  stretchKite(cloth, 1, 1.4);  // 1.6 times that of a weak point
-  cloth.damage.weak[4] = 1;
-  cloth.state.position[6].y() = Real(1.0);
-  Tearing tearing(rulesOfTheThesis());
+  const Vec3 along = cloth.direction(at_a_point, { 4 });
+  cloth.state.position[4 + 5] += Real(0.4) * along;  // 1.6 times that of a one-point connection
 
-  EXPECT_EQ(tearing.worst(cloth).spring, sharedSpring(cloth, 1));
+  const Pass pass = tearOnce(cloth, rulesOfTheThesis());
+
+  ASSERT_EQ(pass.tears.size(), 2u);
+  EXPECT_EQ(pass.tears[0].spring, at_a_point);
+  EXPECT_EQ(pass.tears[1].spring, sound);
 }
 
 TEST(TearOrder, BreaksTiesById)
