@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/state_hash.h"
 #include "scenes.h"
@@ -442,6 +445,22 @@ TEST(Parameters, AreRefusedAllAtOnceByName)
     }
   }
   EXPECT_TRUE(problems(SimulationParams()).empty());
+}
+
+TEST(Motion, TooSmallForNormalNumbersIsZeroInAStepAndThereAlone)
+{
+  SimulationParams params = vacuum();
+  params.environment.gravity = Vec3d(0, 0, -1e-37);
+  Simulation simulation(sheet(1, 1, 5, 5), { 0 }, params);
+
+  simulation.step();
+
+  for (const Vec3& v : simulation.cloth().state.velocity)
+  {
+    EXPECT_NE(std::fpclassify(v.z()), FP_SUBNORMAL);
+  }
+  volatile float smallest = std::numeric_limits<float>::min();
+  EXPECT_GT(smallest / 2.0f, 0.0f) << "the caller's arithmetic is its own";
 }
 
 TEST(Model, IsRefusedTooFarFromItsOriginForFloatPositions)

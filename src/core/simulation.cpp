@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/flush_subnormals.h"
 #include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/state_hash.h"
 
@@ -112,6 +113,7 @@ Simulation& Simulation::operator=(const Simulation& other)
 
 StepReport Simulation::step()
 {
+  const FlushSubnormals fast;
   const double dt = params_.solver.time_step;
   StepReport report;
   remember();
