@@ -139,12 +139,18 @@ inline int stepsFor(const Simulation& simulation, double seconds)
   return static_cast<int>(std::lround(seconds / simulation.params().solver.time_step));
 }
 
+/// NaN if any speed is.
 inline double fastest(const ParticleState& state)
 {
   double most = 0.0;
   for (const Vec3& v : state.velocity)
   {
-    most = std::max(most, v.cast<double>().norm());
+    const double speed = v.cast<double>().norm();
+    most = speed <= most ? most : speed;
+    if (std::isnan(most))
+    {
+      break;
+    }
   }
   return most;
 }

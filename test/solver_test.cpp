@@ -170,6 +170,7 @@ TEST_P(BothSolvers, DampVibrationButNotTravel)
   {
     SimulationParams params = vacuum(GetParam());
     params.material.damping = damped * 0.2;
+    params.solver.time_step = 0.0001;  // so short that XPBD itself hardly damps
     const ClothModel model = sheet(0.5, 0.5, 6, 6);
     Simulation simulation(model, {}, params);
     std::vector<Vec3> velocities;
@@ -187,7 +188,8 @@ TEST_P(BothSolvers, DampVibrationButNotTravel)
                         0.5 * simulation.summary().mass * mean.squaredNorm() +
                         elasticEnergy(simulation.cloth());
   }
-  EXPECT_LT(vibration[1], 0.01 * vibration[0] + 1e-9);
+  EXPECT_GT(vibration[0], 2e-5);
+  EXPECT_LT(vibration[1], 0.1 * vibration[0]);
 }
 
 TEST_P(BothSolvers, LeaveHeldParticlesWhereTheyAre)
@@ -269,6 +271,7 @@ TEST(StrainLimiter, SharesTheCorrectionEquallyBetweenFreeEnds)
 
   makeSolver(params)->limitStrain(cloth.state, cloth.springs);
 
+  EXPECT_EQ(fastest(cloth.state), 0.0) << "velocities are left alone";
   EXPECT_NEAR(cloth.state.position[0].x(), -0.15, 1e-6);
   EXPECT_NEAR(cloth.state.position[1].x(), 0.15, 1e-6);
 }
