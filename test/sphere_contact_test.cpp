@@ -392,6 +392,25 @@ TEST_F(StreamedSpheres, FasterThanTheLimitArePlacedAnewWithoutTouching)
   EXPECT_EQ(simulation.cloth().state.position, before);
 }
 
+TEST_F(StreamedSpheres, MoveBetweenMessagesAtTheSpeedOfTheStreamThoughItNamesNone)
+{
+  const double period = 0.033;  // 30 Hz, 3 m/s: more than max_sphere_speed allows in one step
+  simulation.setSpheres({ ball(Vec3d(3, 0, 0), 0.1) });
+  run(simulation, 33);
+  for (int message = 1; message <= 5; ++message)
+  {
+    simulation.setSpheres({ ball(Vec3d(3 + 3.0 * period * message, 0, 0), 0.1) });
+    double before = simulation.spheres().at(0).center.x();
+    for (int i = 0; i < 33; ++i)
+    {
+      run(simulation, 1);
+      const double now = simulation.spheres().at(0).center.x();
+      EXPECT_NEAR(now - before, 0.003, 1e-9) << "message " << message << ", step " << i;
+      before = now;
+    }
+  }
+}
+
 TEST_F(StreamedSpheres, MoveOnUntilTheirTimeIsUpAndThenStand)
 {
   simulation.setSpheres({ ball(Vec3d(3, 0, 0), 0.1, Vec3d(1, 0, 0)) });

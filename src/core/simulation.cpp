@@ -18,6 +18,9 @@ namespace
 /// How often a loose piece is looked for beyond the bounds [steps].
 constexpr std::uint64_t BOUNDS_INTERVAL = 100;
 
+/// A streamed sphere takes no longer than this to where it is placed [s].
+constexpr double LONGEST_GLIDE = 0.1;
+
 void append(std::vector<std::string>& found, const std::vector<std::string>& more)
 {
   found.insert(found.end(), more.begin(), more.end());
@@ -472,18 +475,21 @@ Sphere Simulation::streamed(const Sphere& set) const
   sphere.source = SphereSource::STREAMED;
   sphere.time_left = params_.contact.sphere_timeout;
   sphere.jump = Vec3d::Zero();
+  sphere.jump_time = 0.0;
+  sphere.age = 0.0;
   const auto known = std::find_if(spheres_.begin(), spheres_.end(),
                                   [&](const Sphere& s)
                                   { return s.source == SphereSource::STREAMED && s.id == set.id; });
   if (known != spheres_.end())
   {
-    // Sweep there within the next step, unless that is no motion any more.
+    // It goes there in the time since it was last heard of, unless that is no motion any more.
     const Vec3d jump = set.center - known->center;
-    const double reach = params_.contact.max_sphere_speed * params_.solver.time_step;
-    if (jump.squaredNorm() <= reach * reach)
+    const double time = std::max(known->age, params_.solver.time_step);
+    if (jump.norm() <= params_.contact.max_sphere_speed * time)
     {
       sphere.center = known->center;
       sphere.jump = jump;
+      sphere.jump_time = std::min(time, LONGEST_GLIDE);
     }
   }
   return sphere;

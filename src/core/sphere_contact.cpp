@@ -188,7 +188,10 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
   const Real sphere_inverse_mass =
       sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
   Real yielding = sphere_inverse_mass;  // inverse mass that feels a push at the contact
-  Vec3 velocity = -sphere.velocity.cast<Real>();
+  // A kinematic sphere has the velocity of its way, whoever moves it.
+  const Vec3d way =
+      sphere.mass > 0.0 ? sphere.velocity : Vec3d((sphere.center - sphere.previous) / double(dt));
+  Vec3 velocity = -way.cast<Real>();
   Real gap = -reach;
   Real approach = 0;
   for (int k = 0; k < 3; ++k)
@@ -222,6 +225,15 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
     sphere.velocity -= (sphere_inverse_mass / yielding * change).cast<double>();
   }
   return push;
+}
+
+/// Goes its share of the way to where a stream has placed it.
+void glide(Sphere& sphere, double dt)
+{
+  const double share = sphere.jump_time > dt ? dt / sphere.jump_time : 1.0;
+  sphere.center += share * sphere.jump;
+  sphere.jump *= 1.0 - share;
+  sphere.jump_time -= dt;
 }
 
 void rollOnFloor(Sphere& sphere, const ContactParams& params)
@@ -278,8 +290,7 @@ void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
   for (Sphere& sphere : spheres)
   {
     sphere.previous = sphere.center;
-    sphere.center += sphere.jump;
-    sphere.jump.setZero();
+    glide(sphere, dt);
     const bool moves = sphere.source == SphereSource::THROWN || sphere.time_left > 0.0;
     if (moves && sphere.mass > 0.0)
     {
@@ -298,6 +309,7 @@ void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
       rollOnFloor(sphere, params);
     }
     sphere.time_left -= dt;
+    sphere.age += dt;
   }
   const auto gone = [&](const Sphere& s)
   {

@@ -112,6 +112,8 @@ void addSphere(Hash& hash, const Sphere& sphere)
   hash.add(sphere.center);
   hash.add(sphere.velocity);
   hash.add(sphere.jump);
+  hash.add(sphere.jump_time);
+  hash.add(sphere.age);
   hash.add(sphere.radius);
   hash.add(sphere.mass);
   hash.add(sphere.time_left);

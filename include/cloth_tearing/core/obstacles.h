@@ -25,9 +25,11 @@ struct Sphere
   Vec3d previous =
       Vec3d::Zero();  ///< centre at the start of the step [m]; contact is swept from here
   Vec3d velocity = Vec3d::Zero();  ///< [m/s]
-  Vec3d jump = Vec3d::Zero();      ///< to where a stream has placed it; swept in the next step [m]
+  Vec3d jump = Vec3d::Zero();      ///< left of the way to where a stream has placed it [m]
+  double jump_time = 0.0;          ///< in which it goes there [s]
   double radius = 0.1;             ///< [m], > 0
   double mass = 0.0;               ///< [kg]; 0 = kinematic
+  double age = 0.0;                ///< since it was set [s]
   double time_left = 0.0;  ///< [s]: STREAMED moves on so long and then stands, THROWN is gone then
 };
 
