@@ -265,29 +265,9 @@ bool Tearing::tearSound(Cloth& cloth, SpringId s, TearEvent& event)
   {
     tearAlong(cloth, at, *best, event);
   }
-  else if (mayRelease(cloth, s))
-  {
-    release(cloth, s, event);
-  }
   else
   {
-    return false;
-  }
-  return true;
-}
-
-/// A triangle keeps two springs at least: with fewer its corners would fly apart for ever.
-bool Tearing::mayRelease(const Cloth& cloth, SpringId s) const
-{
-  for (TriangleId t : cloth.mesh.spring(s).triangles)
-  {
-    for (int k = 0; t.valid() && k < 3; ++k)
-    {
-      if (cloth.damage.released[cloth.mesh.triangle(t).springs[k].index])
-      {
-        return false;
-      }
-    }
+    release(cloth, s, event);
   }
   return true;
 }

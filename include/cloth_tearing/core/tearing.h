@@ -76,7 +76,6 @@ private:
   void release(Cloth& cloth, SpringId s, TearEvent& event);
 
   bool canSplit(const Cloth& cloth, SpringId s) const;
-  bool mayRelease(const Cloth& cloth, SpringId s) const;
   void relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const;
   void keepHeld(Cloth& cloth, const Edit& edit, SpringId stretched);
   void conclude(Cloth& cloth, const Edit& edit, TearEvent& event);
