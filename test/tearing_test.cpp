@@ -330,6 +330,38 @@ TEST(TearThreshold, OfAOnePointConnectionIsItsOwn)
   EXPECT_EQ(pass.tears[0].threshold, 0.1);
 }
 
+TEST(TearThreshold, OfAOnePointConnectionIsTheWeakOneUnlessStated)
+{
+  TearRules rules = rulesOfTheThesis();
+  rules.one_point_tear_strain = 0.0;
+  Cloth below = clothOf(bowTie(2, 2));
+  Cloth above = clothOf(bowTie(2, 2));
+  pullOut(below, 5, 1.24);
+  pullOut(above, 5, 1.26);
+
+  EXPECT_TRUE(tearOnce(below, rules).tears.empty());
+  const Pass pass = tearOnce(above, rules);
+  ASSERT_EQ(pass.tears.size(), 1u);
+  EXPECT_EQ(pass.tears[0].kind, TearKind::ONE_POINT);
+  EXPECT_EQ(pass.tears[0].threshold, rules.weak_tear_strain);
+  EXPECT_EQ(TearRules().one_point_tear_strain, 0.0);
+  EXPECT_TRUE(problems(rules).empty());
+}
+
+TEST(TearThreshold, OfAOnePointConnectionHasNoCrackBand)
+{
+  TearRules rules = rulesOfTheThesis();
+  rules.crack_length = 100.0;
+  Cloth cloth = clothOf(bowTie(2, 2));
+  pullOut(cloth, 5, 1.26);
+
+  const Pass pass = tearOnce(cloth, rules);
+
+  ASSERT_EQ(pass.tears.size(), 1u);
+  EXPECT_EQ(pass.tears[0].kind, TearKind::ONE_POINT);
+  EXPECT_EQ(pass.tears[0].threshold, 0.25);
+}
+
 TEST(TearThreshold, OfShortSpringsAtAWeakPointGrowsWithTheCrackBand)
 {
   TearRules rules = rulesOfTheThesis();

@@ -71,10 +71,9 @@ double Tearing::hemFactor(const Cloth& cloth, SpringId s) const
   return hem ? rules_.hem_factor : 1.0;
 }
 
-double Tearing::weakFactor(const Cloth& cloth, SpringId s) const
+double Tearing::crackBand(const Cloth& cloth, SpringId s) const
 {
-  const double band = std::sqrt(rules_.crack_length / cloth.rest.length[s.index]);
-  return hemFactor(cloth, s) * std::max(1.0, band);
+  return std::max(1.0, std::sqrt(rules_.crack_length / cloth.rest.length[s.index]));
 }
 
 std::vector<Tearing::Option> Tearing::options(const Cloth& cloth, SpringId s) const
@@ -86,14 +85,15 @@ std::vector<Tearing::Option> Tearing::options(const Cloth& cloth, SpringId s) co
     {
       continue;  // never doubled: the load moves on
     }
-    const double factor = weakFactor(cloth, s);
+    const double hem = hemFactor(cloth, s);
     if (cloth.damage.hinge[p.index])
     {
-      found.push_back({ TearKind::ONE_POINT, p, factor * rules_.one_point_tear_strain, 0.0 });
+      found.push_back({ TearKind::ONE_POINT, p, hem * rules_.onePointThreshold(), 0.0 });
     }
     else if (cloth.damage.weak[p.index])
     {
-      found.push_back({ TearKind::WEAK_POINT, p, factor * rules_.weak_tear_strain, 0.0 });
+      const double threshold = hem * crackBand(cloth, s) * rules_.weak_tear_strain;
+      found.push_back({ TearKind::WEAK_POINT, p, threshold, 0.0 });
     }
   }
   if (found.size() == 2)
@@ -143,7 +143,7 @@ TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
 double Tearing::scan(const Cloth& cloth)
 {
   const double least =
-      std::min({ rules_.tear_strain, rules_.weak_tear_strain, rules_.one_point_tear_strain });
+      std::min({ rules_.tear_strain, rules_.weak_tear_strain, rules_.onePointThreshold() });
   found_.clear();
   double most = 0.0;
   for (int i = 0; i < cloth.mesh.springCount(); ++i)

@@ -14,8 +14,9 @@ struct TearRules
   bool enabled = true;
   double tear_strain = 0.30;       ///< sound cloth tears above this [-], > 0 (3.2.1)
   double weak_tear_strain = 0.22;  ///< at a weak point [-], > 0, <= tear_strain (3.2.2)
-  double one_point_tear_strain =
-      0.22;  ///< at a one-point connection [-], > 0, <= tear_strain (3.2.3)
+
+  /// At a one-point connection [-], >= 0, <= tear_strain; 0 = as weak_tear_strain (3.2.3).
+  double one_point_tear_strain = 0.0;
 
   /// An intact spring tears on the mean stretch of the cloth within this distance [m], >= 0; 0 =
   /// on its own strain alone.
@@ -35,6 +36,12 @@ struct TearRules
   /// spacing of the untorn mesh [-], 0 < fraction <= 0.5.
   double min_length = 0.4;
   double min_altitude = 0.2;
+
+  /// The threshold that one_point_tear_strain stands for [-].
+  double onePointThreshold() const
+  {
+    return one_point_tear_strain > 0.0 ? one_point_tear_strain : weak_tear_strain;
+  }
 };
 
 std::vector<std::string> problems(const TearRules& rules);

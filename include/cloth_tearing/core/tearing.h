@@ -62,7 +62,7 @@ private:
   };
 
   double hemFactor(const Cloth& cloth, SpringId s) const;
-  double weakFactor(const Cloth& cloth, SpringId s) const;
+  double crackBand(const Cloth& cloth, SpringId s) const;
   std::vector<Option> options(const Cloth& cloth, SpringId s) const;
   TearReading read(const Cloth& cloth, SpringId s, double own);
 
