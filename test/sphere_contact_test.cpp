@@ -126,6 +126,37 @@ TEST(SphereContact, LetsNoBallThroughWhereverAndHoweverItHits)
   }
 }
 
+TEST(SphereContact, ThrowsNothingAboutWhereABallStrikesHeldCloth)
+{
+  for (const SolverKind solver : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })
+  {
+    SimulationParams params;
+    params.solver.kind = solver;
+    params.solver.max_substeps = 64;
+    const ClothModel flat = sheet(1.0, 1.0, 15, 15);
+    Simulation hung(upright(flat), edgeOf(flat, "top"), params);
+    run(hung, 200);
+    for (const double height : { 0.03, 0.0, -0.01, -0.03, -0.1 })
+    {
+      for (const double speed : { 1.0, 3.0, 10.0 })
+      {
+        Simulation simulation = hung;
+        ThrowRequest thrown;
+        thrown.center = Vec3d(0.013, -0.3, height);
+        thrown.velocity = Vec3d(0, speed, 0);
+        thrown.radius = 0.06;
+        simulation.throwSphere(thrown);
+        for (int i = 0; i < static_cast<int>(600.0 / speed); ++i)
+        {
+          const StepReport report = simulation.step();
+          ASSERT_EQ(report.fault, "")
+              << nameOf(solver) << " at " << height << " m, " << speed << " m/s";
+        }
+      }
+    }
+  }
+}
+
 TEST(SphereContact, PushesOutOverSeveralStepsWhereASphereIsBornInsideTheCloth)
 {
   SimulationParams params = vacuum();

@@ -17,6 +17,10 @@ namespace
 constexpr Real DEEP_PUSH = Real(0.1);
 constexpr int MAX_PASSES = 8;
 
+/// Beside a held corner a push makes a free one part from the sphere by no more than this fraction
+/// of the speed with which they met.
+constexpr Real LEAD = Real(0.5);
+
 /// Weights of the corners at the point of triangle (a, b, c) nearest to the origin
 /// (Ericson, Real-Time Collision Detection, 5.1.5).
 Vec3 nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -166,6 +170,17 @@ void resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
   }
 }
 
+/// The largest inverse mass of a corner; 0 if all are held.
+Real lightestCorner(const ParticleState& state, const Triangle& triangle)
+{
+  Real most = 0;
+  for (ParticleId p : triangle.particles)
+  {
+    most = std::max(most, state.inverse_mass[p.index]);
+  }
+  return most;
+}
+
 /// Parts a triangle from a sphere. @return how far it had to be pushed [m]
 Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
                      const ContactParams& params, Real dt)
@@ -187,18 +202,30 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
   }
   const Real sphere_inverse_mass =
       sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
-  Real yielding = sphere_inverse_mass;  // inverse mass that feels a push at the contact
+  // Inverse mass that feels a push at the contact. A held corner counts as if it were free, and its
+  // share is lost: left to a free one near by, it would throw that away.
+  Real yielding = sphere_inverse_mass;
   // A kinematic sphere has the velocity of its way, whoever moves it.
   const Vec3d way =
       sphere.mass > 0.0 ? sphere.velocity : Vec3d((sphere.center - sphere.previous) / double(dt));
   Vec3 velocity = -way.cast<Real>();
+  std::array<Real, 3> before;  // how fast each corner parts from the sphere [m/s]
+  bool held = false;           // whether a corner is
   Real gap = -reach;
   Real approach = 0;
+  const Real lightest = lightestCorner(state, triangle);
+  if (!(lightest > 0))
+  {
+    return 0;
+  }
   for (int k = 0; k < 3; ++k)
   {
     const Real w = contact.weights[k];
-    yielding += w * w * state.inverse_mass[p[k].index];
+    const Real inverse_mass = state.inverse_mass[p[k].index];
+    held = held || !(inverse_mass > 0);
+    yielding += w * w * (inverse_mass > 0 ? inverse_mass : lightest);
     velocity += w * state.velocity[p[k].index];
+    before[k] = contact.normal.dot(state.velocity[p[k].index] - way.cast<Real>());
     gap += w * contact.normal.dot(corners.end[k]);
     approach += w * contact.normal.dot(corners.start[k] - corners.end[k]);
   }
@@ -210,14 +237,23 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
   const Real most = static_cast<Real>(params.push_speed) * dt + approach;
   const Real push = std::max(Real(0), std::min(-gap, most));
   const Vec3 change = velocityChange(velocity, contact.normal, static_cast<Real>(params.friction));
+  const Real approach_speed = std::max(Real(0), -contact.normal.dot(velocity));
   // What rubs off the speed rubs off the way too.
   const Vec3 rubbed = change - change.dot(contact.normal) * contact.normal;
   const Vec3 shift = push * contact.normal + dt * rubbed;
   for (int k = 0; k < 3; ++k)
   {
     const Real share = contact.weights[k] * state.inverse_mass[p[k].index] / yielding;
+    Vec3& corner_velocity = state.velocity[p[k].index];
     state.position[p[k].index] += share * shift;
-    state.velocity[p[k].index] += share * change;
+    corner_velocity += share * change;
+    // Beside a held corner the contact asks again each step: none is to run ahead of the ball.
+    const Real ahead = contact.normal.dot(corner_velocity - way.cast<Real>());
+    const Real most_ahead = std::max(before[k], LEAD * approach_speed);
+    if (held && ahead > most_ahead)
+    {
+      corner_velocity -= (ahead - most_ahead) * contact.normal;
+    }
   }
   if (sphere.mass > 0.0)
   {
