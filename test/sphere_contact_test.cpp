@@ -187,6 +187,24 @@ TEST(SphereContact, PushesOutOverSeveralStepsWhereASphereIsBornInsideTheCloth)
   EXPECT_LT(fastest(simulation.cloth().state), 3.0) << "nor is it shot away";
 }
 
+TEST(SphereContact, TearsNothingWhereASphereIsBornInThePlaneOfTheCloth)
+{
+  const ClothModel flat = sheet(1.0, 1.0, 30, 30);
+  Simulation hung(upright(flat), edgeOf(flat, "top"), SimulationParams());
+  run(hung, 100);
+  for (const double radius : { 0.05, 0.1, 0.2 })
+  {
+    Simulation simulation = hung;
+    const Vec3d center(0.01, 0.0, -0.5);
+    simulation.setSpheres({ ball(center, radius) });
+
+    const std::size_t tears = run(simulation, 300).size();
+
+    EXPECT_EQ(tears, 0u) << radius;
+    EXPECT_GT(clothDistance(simulation.cloth(), center), 0.95 * radius) << "and it came out";
+  }
+}
+
 /// A small sheet on a sphere so large that it is a plane, or on the floor, on a slope.
 double speedOnSlope(bool floor, double slope, double friction)
 {

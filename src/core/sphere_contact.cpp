@@ -17,6 +17,10 @@ namespace
 constexpr Real DEEP_PUSH = Real(0.1);
 constexpr int MAX_PASSES = 8;
 
+/// Cloth nearer to the centre of a new sphere than this fraction of its reach was not struck by it:
+/// the sphere was placed into the cloth.
+constexpr Real INSIDE = Real(0.9);
+
 /// Beside a held corner a push makes a free one part from the sphere by no more than this fraction
 /// of the speed with which they met.
 constexpr Real LEAD = Real(0.5);
@@ -181,43 +185,42 @@ Real lightestCorner(const ParticleState& state, const Triangle& triangle)
   return most;
 }
 
-/// Parts a triangle from a sphere. @return how far it had to be pushed [m]
-Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
-                     const ContactParams& params, Real dt)
+Corners cornersOf(const ParticleState& state, const Triangle& triangle, const Sphere& sphere)
 {
-  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
   const Vec3 start = sphere.previous.cast<Real>();
   const Vec3 end = sphere.center.cast<Real>();
-  const auto& p = triangle.particles;
   Corners corners;
   for (int k = 0; k < 3; ++k)
   {
-    corners.start[k] = state.previous[p[k].index] - start;
-    corners.end[k] = state.position[p[k].index] - end;
+    corners.start[k] = state.previous[triangle.particles[k].index] - start;
+    corners.end[k] = state.position[triangle.particles[k].index] - end;
   }
-  Contact contact;
-  if (!firstTouch(corners, reach, contact))
-  {
-    return 0;
-  }
-  const Real sphere_inverse_mass =
-      sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
-  // Inverse mass that feels a push at the contact. A held corner counts as if it were free, and its
-  // share is lost: left to a free one near by, it would throw that away.
-  Real yielding = sphere_inverse_mass;
-  // A kinematic sphere has the velocity of its way, whoever moves it.
-  const Vec3d way =
-      sphere.mass > 0.0 ? sphere.velocity : Vec3d((sphere.center - sphere.previous) / double(dt));
-  Vec3 velocity = -way.cast<Real>();
-  std::array<Real, 3> before;  // how fast each corner parts from the sphere [m/s]
-  bool held = false;           // whether a corner is
-  Real gap = -reach;
-  Real approach = 0;
+  return corners;
+}
+
+/// Pushes the touching point of a triangle along the normal, with what that does to velocities.
+/// @return how far it was pushed [m]
+Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
+               const Contact& contact, Real push, const ContactParams& params, Real dt)
+{
   const Real lightest = lightestCorner(state, triangle);
   if (!(lightest > 0))
   {
     return 0;
   }
+  const auto& p = triangle.particles;
+  const Real sphere_inverse_mass =
+      sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
+  // A kinematic sphere has the velocity of its way, whoever moves it.
+  const Vec3 way =
+      (sphere.mass > 0.0 ? sphere.velocity : Vec3d((sphere.center - sphere.previous) / double(dt)))
+          .cast<Real>();
+  // Inverse mass that feels a push at the contact. A held corner counts as if it were free, and its
+  // share is lost: left to a free one near by, it would throw that away.
+  Real yielding = sphere_inverse_mass;
+  Vec3 velocity = -way;
+  bool held = false;           // whether a corner is
+  std::array<Real, 3> before;  // how fast each corner parts from the sphere [m/s]
   for (int k = 0; k < 3; ++k)
   {
     const Real w = contact.weights[k];
@@ -225,17 +228,8 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
     held = held || !(inverse_mass > 0);
     yielding += w * w * (inverse_mass > 0 ? inverse_mass : lightest);
     velocity += w * state.velocity[p[k].index];
-    before[k] = contact.normal.dot(state.velocity[p[k].index] - way.cast<Real>());
-    gap += w * contact.normal.dot(corners.end[k]);
-    approach += w * contact.normal.dot(corners.start[k] - corners.end[k]);
+    before[k] = contact.normal.dot(state.velocity[p[k].index] - way);
   }
-  if (!(yielding > 0) || gap >= 0)
-  {
-    return 0;
-  }
-  // Out, but where it was inside from the start only as far as push_speed allows.
-  const Real most = static_cast<Real>(params.push_speed) * dt + approach;
-  const Real push = std::max(Real(0), std::min(-gap, most));
   const Vec3 change = velocityChange(velocity, contact.normal, static_cast<Real>(params.friction));
   const Real approach_speed = std::max(Real(0), -contact.normal.dot(velocity));
   // What rubs off the speed rubs off the way too.
@@ -248,7 +242,7 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
     state.position[p[k].index] += share * shift;
     corner_velocity += share * change;
     // Beside a held corner the contact asks again each step: none is to run ahead of the ball.
-    const Real ahead = contact.normal.dot(corner_velocity - way.cast<Real>());
+    const Real ahead = contact.normal.dot(corner_velocity - way);
     const Real most_ahead = std::max(before[k], LEAD * approach_speed);
     if (held && ahead > most_ahead)
     {
@@ -261,6 +255,86 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
     sphere.velocity -= (sphere_inverse_mass / yielding * change).cast<double>();
   }
   return push;
+}
+
+/// Parts a triangle from a sphere. @return how far it had to be pushed [m]
+Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
+                     const ContactParams& params, Real dt)
+{
+  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
+  const Corners corners = cornersOf(state, triangle, sphere);
+  Contact contact;
+  if (!firstTouch(corners, reach, contact))
+  {
+    return 0;
+  }
+  Real gap = -reach;
+  Real approach = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    gap += contact.weights[k] * contact.normal.dot(corners.end[k]);
+    approach += contact.weights[k] * contact.normal.dot(corners.start[k] - corners.end[k]);
+  }
+  if (gap >= 0)
+  {
+    return 0;
+  }
+  // Out, but where it was inside from the start only as far as push_speed allows.
+  const Real most = static_cast<Real>(params.push_speed) * dt + approach;
+  return pushApart(state, triangle, sphere, contact, std::max(Real(0), std::min(-gap, most)),
+                   params, dt);
+}
+
+/// The side to which cloth goes that a sphere was placed into: that of the nearest triangle, or
+/// its front where the centre lies in it. Zero if no cloth is well inside.
+Vec3 sideOut(const ParticleState& state, const Mesh& mesh, const std::vector<TriangleId>& near,
+             const Sphere& sphere, Real reach)
+{
+  Real least = (INSIDE * reach) * (INSIDE * reach);
+  Vec3 out = Vec3::Zero();
+  for (TriangleId id : near)
+  {
+    const std::array<Vec3, 3> x = cornersOf(state, mesh.triangle(id), sphere).start;
+    const Vec3 weights = nearestWeights(x[0], x[1], x[2]);
+    const Vec3 nearest = weights[0] * x[0] + weights[1] * x[1] + weights[2] * x[2];
+    const Vec3 front = (x[1] - x[0]).cross(x[2] - x[0]);
+    if (nearest.squaredNorm() < least && front.squaredNorm() > 0)
+    {
+      least = nearest.squaredNorm();
+      out = nearest.dot(front) < 0 ? Vec3(-front) : front;
+    }
+  }
+  return out.squaredNorm() > 0 ? Vec3(out / std::sqrt(out.squaredNorm())) : out;
+}
+
+/// Lifts a triangle out of a sphere that was placed into it, along sphere.out and at push_speed:
+/// pushed away from the centre it would be torn open in its plane.
+/// @return whether it was well inside
+bool liftTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
+                  const ContactParams& params, Real dt)
+{
+  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
+  const Corners corners = cornersOf(state, triangle, sphere);
+  Contact contact;
+  contact.weights = nearestWeights(corners.end[0], corners.end[1], corners.end[2]);
+  contact.normal = sphere.out.cast<Real>();
+  Vec3 nearest = Vec3::Zero();
+  Vec3 moved = Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+  {
+    nearest += contact.weights[k] * corners.end[k];
+    moved += contact.weights[k] * (corners.end[k] - corners.start[k]);
+  }
+  const Real squared = nearest.squaredNorm();
+  if (squared >= reach * reach)
+  {
+    return false;
+  }
+  const Real height = nearest.dot(contact.normal);
+  const Real lift = std::sqrt(reach * reach - squared + height * height) - height;
+  const Real most = static_cast<Real>(params.push_speed) * dt - contact.normal.dot(moved);
+  pushApart(state, triangle, sphere, contact, std::max(Real(0), std::min(lift, most)), params, dt);
+  return squared < INSIDE * INSIDE * reach * reach;
 }
 
 /// Goes its share of the way to where a stream has placed it.
@@ -385,6 +459,27 @@ void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactPar
     {
       near_.push_back({ i });
     }
+  }
+
+  if (sphere.fresh)
+  {
+    sphere.out = sideOut(state, cloth.mesh, near_, sphere, reach).cast<double>();
+    sphere.fresh = false;
+  }
+  if (!sphere.out.isZero(0.0))
+  {
+    bool inside = false;
+    for (TriangleId id : near_)
+    {
+      inside =
+          liftTriangle(state, cloth.mesh.triangle(id), sphere, params, static_cast<Real>(dt)) ||
+          inside;
+    }
+    if (inside)
+    {
+      return;
+    }
+    sphere.out.setZero();  // the cloth is outside now
   }
 
   Real push = reach;

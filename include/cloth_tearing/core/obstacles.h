@@ -29,7 +29,10 @@ struct Sphere
   double jump_time = 0.0;          ///< in which it goes there [s]
   double radius = 0.1;             ///< [m], > 0
   double mass = 0.0;               ///< [kg]; 0 = kinematic
-  double age = 0.0;                ///< since it was set [s]
+  bool fresh = true;               ///< has not been through a step yet
+  Vec3d out =
+      Vec3d::Zero();  ///< to where it parts cloth that it was placed into; zero: from its centre
+  double age = 0.0;   ///< since it was set [s]
   double time_left = 0.0;  ///< [s]: STREAMED moves on so long and then stands, THROWN is gone then
 };
 
