@@ -102,6 +102,12 @@ std::size_t graspedParticles(const ClothSurface& surface)
                                                 { return held.grasp != 0; }));
 }
 
+bool drawsAGrasp(const MarkerArray& array)
+{
+  return std::any_of(array.markers.begin(), array.markers.end(),
+                     [](const Marker& m) { return m.ns == "grasps" && m.action == Marker::ADD; });
+}
+
 /// Sums of the sorts of things that tears add, by the events' own account.
 struct Account
 {
@@ -493,6 +499,8 @@ TEST_F(ClothNode, SaysWhyItRefusesAndChangesNothing)
   expectRefusal<Grasp>("/cloth/grasp", grasp, "header.frame_id is empty");
   grasp.header.frame_id = "atlantis";
   expectRefusal<Grasp>("/cloth/grasp", grasp, "no transform from atlantis to world");
+  grasp.header.frame_id = "/world";
+  expectRefusal<Grasp>("/cloth/grasp", grasp, "must not begin with a slash");
 
   expectRefusal<Drag>("/cloth/drag", dragTo(999999, 0.0, 0.0, 1.0), "there is no grasp 999999");
   Drag::Request drag = dragTo(held.grasp_id, 0.0, 0.0, 1.0);
@@ -520,8 +528,8 @@ TEST_F(ClothNode, SaysWhyItRefusesAndChangesNothing)
 
   EXPECT_EQ(step(0).state_hash, before.state_hash);
   const SimulationStatus after = status.waitFor(
-      "all are counted", [&](const SimulationStatus& s) { return s.refusals >= refusals + 17; });
-  EXPECT_EQ(after.refusals, refusals + 17);
+      "all are counted", [&](const SimulationStatus& s) { return s.refusals >= refusals + 18; });
+  EXPECT_EQ(after.refusals, refusals + 18);
   EXPECT_NE(after.last_refusal.find("throw_sphere: "), std::string::npos) << after.last_refusal;
 }
 
@@ -592,6 +600,36 @@ TEST_F(ClothNode, GivesALateSubscriberTheStateOfNow)
   EXPECT_FALSE(markers.first().markers.empty());
 }
 
+TEST_F(ClothNode, ShowsThoseWhoListenAlreadyWhatARequestChangedThoughNoStepFollows)
+{
+  Collector<ClothSurface> surfaces("/cloth/surface");
+  Collector<MarkerArray> markers("/cloth/markers");
+  surfaces.first();
+  markers.first();
+  ASSERT_TRUE(ask<Grasp>("/cloth/grasp", graspAt(0.0, 0.0, BOTTOM)).success);
+  surfaces.waitFor("the grasp", [](const ClothSurface& s) { return graspedParticles(s) == 1; });
+  markers.waitFor("the drawn grasp", drawsAGrasp);
+
+  ASSERT_TRUE(ask<Release>("/cloth/release").success);
+
+  bool held = false;
+  surfaces.waitFor("the release",
+                   [&held](const ClothSurface& s)
+                   {
+                     held |= graspedParticles(s) == 1;
+                     return held && graspedParticles(s) == 0;
+                   });
+  bool drawn = false;
+  markers.waitFor("no drawn grasp",
+                  [&drawn](const MarkerArray& array)
+                  {
+                    drawn |= drawsAGrasp(array);
+                    return drawn && !drawsAGrasp(array);
+                  });
+  ASSERT_TRUE(ask<Trigger>("/cloth/reset").success);
+  surfaces.waitFor("the reset", [this](const ClothSurface& s) { return s.epoch == epoch_ + 1; });
+}
+
 TEST_F(ClothNode, RaisesTheEpochByAResetAndKeepsTheLog)
 {
   tear();
@@ -647,7 +685,9 @@ TEST_F(ClothNode, SharesTheMasterWithAnotherClothOfAnotherName)
   const ClothSurface surface = surfaces.first();
   EXPECT_EQ(surface.header.frame_id, "map");
   EXPECT_EQ(surface.positions.size(), 3 * 25u);
-  EXPECT_NEAR(surface.positions[2], 5.0, 1e-5);
+  EXPECT_EQ(surface.origin.x, 100.0);
+  EXPECT_EQ(surface.origin.z, 5.0);
+  EXPECT_NEAR(surface.positions[2], 0.0, 1e-5) << "relative to the origin";
 
   Collector<SimulationStatus> status("/second/sheet/status");
   ros::Publisher balls = ros::NodeHandle().advertise<CollisionSpheres>("/balls", 1, true);

@@ -79,7 +79,7 @@ cloth::Pose quarterTurn()
 
 }  // namespace
 
-TEST(SurfaceMessage, HoldsTheMeshInTheFrameOfItsHeader)
+TEST(SurfaceMessage, HoldsTheMeshFromItsOriginInTheFrameOfItsHeader)
 {
   const ClothSurface message = toMessage(smallSurface(), PLACEMENT);
 
@@ -89,9 +89,12 @@ TEST(SurfaceMessage, HoldsTheMeshInTheFrameOfItsHeader)
   EXPECT_EQ(message.epoch, 2u);
   EXPECT_EQ(message.revision, 1u);
   ASSERT_EQ(message.positions.size(), 12u);
-  EXPECT_EQ(message.positions[9], 11.0F);
-  EXPECT_EQ(message.positions[10], 20.0F);
-  EXPECT_EQ(message.positions[11], 31.0F);
+  EXPECT_EQ(message.origin.x, 10.0);
+  EXPECT_EQ(message.origin.y, 20.0);
+  EXPECT_EQ(message.origin.z, 30.0);
+  EXPECT_EQ(message.positions[9], 1.0F);
+  EXPECT_EQ(message.positions[10], 0.0F);
+  EXPECT_EQ(message.positions[11], 1.0F);
   EXPECT_EQ(message.strain, (std::vector<float>{ 0.0F, 0.1F, 0.2F, 0.3F }));
   EXPECT_EQ(message.parents, (std::vector<std::uint32_t>{ 0, 0, 1, 1, 2, 2, 1, 2 }));
   EXPECT_EQ(message.triangles, (std::vector<std::uint32_t>{ 0, 1, 2, 1, 3, 2 }));
@@ -102,6 +105,18 @@ TEST(SurfaceMessage, HoldsTheMeshInTheFrameOfItsHeader)
   EXPECT_EQ(message.held[0].grasp, 0u) << "0 = pinned";
   EXPECT_EQ(message.held[1].particle, 3u);
   EXPECT_EQ(message.held[1].grasp, 9u);
+}
+
+TEST(SurfaceMessage, IsAsFineFarAwayAsAtHome)
+{
+  const Placement far{ "map", cloth::Vec3d(500000.0, 0.0, 0.0) };
+  cloth::Surface surface = smallSurface();
+  surface.position[1].x() = 1.0001F;
+
+  const ClothSurface message = toMessage(surface, far);
+
+  EXPECT_EQ(message.origin.x, 500000.0);
+  EXPECT_EQ(message.positions[3], 1.0001F);
 }
 
 TEST(TearEventMessage, TellsWhatTheCoreTold)
@@ -253,6 +268,29 @@ TEST(Requests, OfGoodValuesHaveNoProblems)
   EXPECT_EQ(joined(problems(CollisionSpheres())), "");
 }
 
+TEST(Requests, LeaveRangesToTheCore)
+{
+  Grasp::Request grasp;
+  grasp.radius = -1.0;
+  EXPECT_EQ(joined(problems(grasp)), "");
+  EXPECT_EQ(toCore(grasp, cloth::Pose()).radius, -1.0);
+
+  Drag::Request drag = dragRequest();
+  drag.linear_speed = 0.0;
+  drag.angular_speed = 0.0;
+  EXPECT_EQ(joined(problems(drag)), "");
+  EXPECT_EQ(joined(cloth::problems(toCore(drag, cloth::Pose()).target)),
+            "linear_speed [m/s] is 0, must be greater than 0 and at most 100\n"
+            "angular_speed [rad/s] is 0, must be greater than 0 and at most 100\n");
+
+  ThrowSphere::Request ball = throwRequest();
+  ball.mass = -1.0;
+  ball.lifetime = -1.0;
+  EXPECT_EQ(joined(problems(ball)), "");
+  EXPECT_EQ(toCore(ball, cloth::Pose()).mass, -1.0);
+  EXPECT_EQ(toCore(ball, cloth::Pose()).lifetime, -1.0);
+}
+
 TEST(Requests, NameEachFieldThatIsWrong)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -266,7 +304,6 @@ TEST(Requests, NameEachFieldThatIsWrong)
   };
   grasp("point.x is nan", [&](auto& r) { r.point.x = nan; });
   grasp("point.z is inf", [&](auto& r) { r.point.z = infinity; });
-  grasp("radius [m] is -1", [&](auto& r) { r.radius = -1.0; });
   grasp("radius [m] is nan", [&](auto& r) { r.radius = nan; });
   grasp("gripper_frame is not served yet", [&](auto& r) { r.gripper_frame = "hand"; });
   grasp("force_limit is not served yet", [&](auto& r) { r.force_limit = 3.0; });
@@ -280,9 +317,8 @@ TEST(Requests, NameEachFieldThatIsWrong)
   drag("target.position.y is nan", [&](auto& r) { r.target.position.y = nan; });
   drag("target.orientation has length 2", [&](auto& r) { r.target.orientation.w = 2.0; });
   drag("target.orientation has length nan", [&](auto& r) { r.target.orientation.x = nan; });
-  drag("linear_speed [m/s] is 0", [&](auto& r) { r.linear_speed = 0.0; });
+  drag("angular_speed [rad/s] is nan", [&](auto& r) { r.angular_speed = nan; });
   drag("linear_speed [m/s] is inf", [&](auto& r) { r.linear_speed = infinity; });
-  drag("angular_speed [rad/s] is 0", [&](auto& r) { r.angular_speed = 0.0; });
   const auto ball = [&cases](const std::string& expected, auto change)
   {
     ThrowSphere::Request request = throwRequest();
@@ -291,9 +327,6 @@ TEST(Requests, NameEachFieldThatIsWrong)
   };
   ball("center.x is nan", [&](auto& r) { r.center.x = nan; });
   ball("velocity.z is nan", [&](auto& r) { r.velocity.z = nan; });
-  ball("radius [m] is 0", [&](auto& r) { r.radius = 0.0; });
-  ball("mass [kg] is -1", [&](auto& r) { r.mass = -1.0; });
-  ball("lifetime [s] is -1", [&](auto& r) { r.lifetime = -1.0; });
   const auto sphere = [&cases](const std::string& expected, auto change)
   {
     CollisionSpheres message = oneSphere();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <type_traits>
 
 #include "cloth_tearing/core/refusal.h"
 
@@ -41,7 +42,13 @@ std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params)
   {
     ROS_WARN_STREAM(params.model_file << ": " << finding);
   }
-  return std::make_unique<cloth::Simulation>(placed.model, placed.pinned, inClothFrame(params));
+  auto simulation =
+      std::make_unique<cloth::Simulation>(placed.model, placed.pinned, inClothFrame(params));
+  for (const std::string& note : simulation->startNotes())
+  {
+    ROS_WARN_STREAM(note);
+  }
+  return simulation;
 }
 
 }  // namespace
@@ -89,17 +96,9 @@ void ClothNode::openRequests()
   serve<Step>(step_node_, "step", [this](auto& q, auto& a) { onStep(q, a); });
   serve<Trigger>(node_, "pause", [this](auto&, auto&) { loop_->pause(); });
   serve<Trigger>(node_, "resume",
-                 [this](auto&, auto&)
-                 {
-                   publisher_.clearFault();
-                   loop_->resume();
-                 });
+                 [this](auto&, auto&) { settleFaults([this] { loop_->resume(); }); });
   serve<Trigger>(node_, "reset",
-                 [this](auto&, auto&)
-                 {
-                   publisher_.clearFault();
-                   loop_->reset();
-                 });
+                 [this](auto&, auto&) { settleFaults([this] { loop_->reset(); }); });
   spheres_ = node_.subscribe("spheres", 1, &ClothNode::onSpheres, this);
 }
 
@@ -120,7 +119,8 @@ std::string ClothNode::refusal(const std::string& name, Work work)
   }
 }
 
-/// A refusal is an answer with its reason: the callback itself never fails.
+/// A refusal is an answer with its reason: the callback itself never fails. What was done is seen
+/// at once.
 template <class Service, class Work>
 void ClothNode::serve(ros::NodeHandle& node, const std::string& name, Work work)
 {
@@ -136,22 +136,22 @@ void ClothNode::serve(ros::NodeHandle& node, const std::string& name, Work work)
       response = Response();
       response.message = reason;
     }
+    else if (!std::is_same<Service, GetTearEvents>::value)  // which only looks
+    {
+      publisher_.touch();
+    }
     return true;
   };
   services_.push_back(node.advertiseService(name, callback));
 }
 
-/// Runs a command that changes what is published.
+/// Forgets the faults so far once `command` has succeeded. The next one may come before it returns.
 template <class Command>
-auto ClothNode::change(Command command)
+void ClothNode::settleFaults(Command command)
 {
-  struct Touch
-  {
-    ClothPublisher& publisher;
-    ~Touch() { publisher.touch(); }
-  };
-  const Touch when_done{ publisher_ };
-  return loop_->call(command);
+  const std::uint64_t settled = publisher_.faults();
+  command();
+  publisher_.clearFault(settled);
 }
 
 void ClothNode::onGrasp(const Grasp::Request& request, Grasp::Response& response)
@@ -159,7 +159,7 @@ void ClothNode::onGrasp(const Grasp::Request& request, Grasp::Response& response
   cloth::refuseIf(problems(request));
   const cloth::GraspRequest wish = toCore(request, frames_.toCloth(request.header));
   const cloth::GraspTaken taken =
-      change([&wish](cloth::Simulation& simulation) { return simulation.grasp(wish); });
+      loop_->call([&wish](cloth::Simulation& simulation) { return simulation.grasp(wish); });
   response.grasp_id = taken.id;
   response.held_particles = static_cast<std::uint32_t>(taken.held_particles);
   response.distance = taken.distance;
@@ -204,7 +204,7 @@ void ClothNode::onThrowSphere(const ThrowSphere::Request& request, ThrowSphere::
   cloth::refuseIf(problems(request));
   const cloth::ThrowRequest wish = toCore(request, frames_.toCloth(request.header));
   response.sphere_id =
-      change([&wish](cloth::Simulation& simulation) { return simulation.throwSphere(wish); });
+      loop_->call([&wish](cloth::Simulation& simulation) { return simulation.throwSphere(wish); });
 }
 
 void ClothNode::onGetTearEvents(const GetTearEvents::Request& request,
@@ -231,7 +231,6 @@ void ClothNode::onGetTearEvents(const GetTearEvents::Request& request,
 void ClothNode::onStep(const Step::Request& request, Step::Response& response)
 {
   fill(response, loop_->step(request.steps));
-  publisher_.touch();
 }
 
 void ClothNode::onSpheres(const CollisionSpheres::ConstPtr& message)
@@ -246,7 +245,8 @@ void ClothNode::onSpheres(const CollisionSpheres::ConstPtr& message)
         {
           spheres = toCore(*message, frames_.toCloth(message->header));
         }
-        change([&spheres](cloth::Simulation& simulation) { simulation.setSpheres(spheres); });
+        loop_->call([&spheres](cloth::Simulation& simulation) { simulation.setSpheres(spheres); });
+        publisher_.touch();
       });
   if (!reason.empty())
   {

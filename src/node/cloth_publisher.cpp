@@ -90,6 +90,7 @@ void ClothPublisher::onStep(const cloth::StepReport& report)
         "The simulation went back to its last good state and paused: " << report.fault);
     const std::lock_guard<std::mutex> lock(mutex_);
     fault_ = report.fault;
+    ++faults_;
   }
   if (!report.tears.empty())
   {
@@ -123,10 +124,19 @@ void ClothPublisher::touch()
   wake_.notify_all();
 }
 
-void ClothPublisher::clearFault()
+std::uint64_t ClothPublisher::faults()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  fault_.clear();
+  return faults_;
+}
+
+void ClothPublisher::clearFault(std::uint64_t settled)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (faults_ == settled)
+  {
+    fault_.clear();
+  }
 }
 
 void ClothPublisher::countRefusal(const std::string& name, const std::string& reason)

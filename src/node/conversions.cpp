@@ -14,8 +14,8 @@ using cloth::Range;
 namespace
 {
 
-/// Coordinates in any frame may be large (a map's); the core judges them in the cloth frame.
-constexpr double LARGEST_INPUT = 1e9;
+/// Of a number as it is sent, in whatever frame: the core knows the limits, in the cloth frame.
+const Range FINITE;
 
 constexpr std::size_t MOST_SPHERES = 1000;  // at once
 
@@ -77,13 +77,12 @@ std::uint8_t toMessage(cloth::CauseKind kind)
   return TearEvent::NO_CAUSE;
 }
 
-void fillParticles(ClothSurface& message, const cloth::Surface& surface, const Placement& placement)
+void fillParticles(ClothSurface& message, const cloth::Surface& surface)
 {
   message.positions.reserve(3 * surface.position.size());
   for (const cloth::Vec3& x : surface.position)
   {
-    const cloth::Vec3 placed = (x.cast<double>() + placement.origin).cast<float>();
-    message.positions.insert(message.positions.end(), placed.data(), placed.data() + 3);
+    message.positions.insert(message.positions.end(), x.data(), x.data() + 3);
   }
   message.strain.assign(surface.strain.begin(), surface.strain.end());
   message.parents.reserve(2 * surface.parents.size());
@@ -156,7 +155,8 @@ ClothSurface toMessage(const cloth::Surface& surface, const Placement& placement
   message.step = surface.step;
   message.epoch = surface.epoch;
   message.revision = surface.revision;
-  fillParticles(message, surface, placement);
+  message.origin = toPoint(cloth::Vec3d::Zero(), placement);
+  fillParticles(message, surface);
   fillTriangles(message, surface);
   fillMarks(message, surface);
   return message;
@@ -280,8 +280,8 @@ const char* name(cloth::Pace pace)
 std::vector<std::string> problems(const Grasp::Request& request)
 {
   std::vector<std::string> found;
-  check(found, "point", toVector(request.point), LARGEST_INPUT);
-  check(found, "radius [m]", request.radius, Range::between(0.0, LARGEST_INPUT));
+  check(found, "point", toVector(request.point), FINITE.high);
+  check(found, "radius [m]", request.radius, FINITE);
   if (!request.gripper_frame.empty())
   {
     found.push_back("gripper_frame is not served yet: leave it empty");
@@ -296,23 +296,21 @@ std::vector<std::string> problems(const Grasp::Request& request)
 std::vector<std::string> problems(const Drag::Request& request)
 {
   std::vector<std::string> found;
-  check(found, "target.position", toVector(request.target.position), LARGEST_INPUT);
+  check(found, "target.position", toVector(request.target.position), FINITE.high);
   checkOrientation(found, "target.orientation", request.target.orientation);
-  check(found, "linear_speed [m/s]", request.linear_speed, Range::aboveUpTo(0.0, LARGEST_INPUT));
-  const bool turns = !isZero(request.target.orientation);
-  check(found, "angular_speed [rad/s]", request.angular_speed,
-        turns ? Range::aboveUpTo(0.0, LARGEST_INPUT) : Range::between(0.0, LARGEST_INPUT));
+  check(found, "linear_speed [m/s]", request.linear_speed, FINITE);
+  check(found, "angular_speed [rad/s]", request.angular_speed, FINITE);
   return found;
 }
 
 std::vector<std::string> problems(const ThrowSphere::Request& request)
 {
   std::vector<std::string> found;
-  check(found, "center", toVector(request.center), LARGEST_INPUT);
-  check(found, "velocity", toVector(request.velocity), LARGEST_INPUT);
-  check(found, "radius [m]", request.radius, Range::aboveUpTo(0.0, LARGEST_INPUT));
-  check(found, "mass [kg]", request.mass, Range::between(0.0, LARGEST_INPUT));
-  check(found, "lifetime [s]", request.lifetime, Range::between(0.0, LARGEST_INPUT));
+  check(found, "center", toVector(request.center), FINITE.high);
+  check(found, "velocity", toVector(request.velocity), FINITE.high);
+  check(found, "radius [m]", request.radius, FINITE);
+  check(found, "mass [kg]", request.mass, FINITE);
+  check(found, "lifetime [s]", request.lifetime, FINITE);
   return found;
 }
 
@@ -328,10 +326,10 @@ std::vector<std::string> problems(const CollisionSpheres& message)
   {
     const CollisionSphere& sphere = message.spheres[i];
     const std::string field = "spheres[" + std::to_string(i) + "].";
-    check(found, field + "center", toVector(sphere.center), LARGEST_INPUT);
-    check(found, field + "velocity", toVector(sphere.velocity), LARGEST_INPUT);
-    check(found, field + "radius [m]", sphere.radius, Range::aboveUpTo(0.0, LARGEST_INPUT));
-    check(found, field + "mass [kg]", sphere.mass, Range::between(0.0, LARGEST_INPUT));
+    check(found, field + "center", toVector(sphere.center), FINITE.high);
+    check(found, field + "velocity", toVector(sphere.velocity), FINITE.high);
+    check(found, field + "radius [m]", sphere.radius, FINITE);
+    check(found, field + "mass [kg]", sphere.mass, FINITE);
     if (!sphere.frame.empty())
     {
       found.push_back(field + "frame is not served yet: leave it empty");
@@ -364,7 +362,7 @@ Destination toCore(const Drag::Request& request, const cloth::Pose& to_cloth)
   cloth::DragTarget& target = destination.target;
   target.pose.position = to_cloth.apply(toVector(request.target.position));
   target.linear_speed = request.linear_speed;
-  if (request.angular_speed > 0.0)
+  if (!destination.keeps_rotation || request.angular_speed != 0.0)
   {
     target.angular_speed = request.angular_speed;
   }
@@ -383,7 +381,7 @@ cloth::ThrowRequest toCore(const ThrowSphere::Request& request, const cloth::Pos
   sphere.velocity = to_cloth.rotation * toVector(request.velocity);
   sphere.radius = request.radius;
   sphere.mass = request.mass;
-  if (request.lifetime > 0.0)
+  if (request.lifetime != 0.0)
   {
     sphere.lifetime = request.lifetime;
   }

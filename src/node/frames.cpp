@@ -28,6 +28,11 @@ cloth::Pose Frames::toCloth(const std_msgs::Header& header) const
         "header.frame_id is empty, must name the frame of the values (the cloth's is " +
         placement_.frame_id + ")");
   }
+  if (header.frame_id.front() == '/')  // tf would look for it in vain until patience ends
+  {
+    throw cloth::Refusal("header.frame_id is \"" + header.frame_id +
+                         "\", must not begin with a slash");
+  }
   if (header.frame_id == placement_.frame_id)
   {
     return { -placement_.origin, cloth::Quatd::Identity() };

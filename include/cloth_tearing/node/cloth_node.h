@@ -49,7 +49,7 @@ private:
   template <class Work>
   std::string refusal(const std::string& name, Work work);
   template <class Command>
-  auto change(Command command);
+  void settleFaults(Command command);
 
   Placement placement_;
   ros::CallbackQueue queue_;

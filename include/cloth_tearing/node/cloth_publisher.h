@@ -70,8 +70,11 @@ public:
   /// Something changed that should be seen at once.
   void touch();
 
-  /// The reason why the simulation paused itself is settled.
-  void clearFault();
+  /// How often the simulation paused itself.
+  std::uint64_t faults();
+
+  /// The reasons why the simulation paused itself the first `settled` times are settled.
+  void clearFault(std::uint64_t settled);
 
   /// A request or message was refused.
   void countRefusal(const std::string& name, const std::string& reason);
@@ -116,6 +119,7 @@ private:
   bool stopping_ = false;
   bool urgent_ = false;  // somebody wants something at once
   std::string fault_;
+  std::uint64_t faults_ = 0;
   std::uint64_t refusals_ = 0;
   std::string last_refusal_;
 
