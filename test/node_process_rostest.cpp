@@ -243,7 +243,7 @@ TEST_F(NodeProcessTest, RefusesToRunWithNonsenseAndNamesAllOfIt)
   const std::string words = node.words();
   for (const char* expected :
        { "time_step is the text \"fast\"", "did you mean material/stiffness?",
-         "tearing/tear_strain", "pace is the text \"clock\"" })
+         "tearing/tear_strain", "pace is \"clock\", which is not served yet" })
   {
     EXPECT_NE(words.find(expected), std::string::npos) << expected << " is not among:\n" << words;
   }

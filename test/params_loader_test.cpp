@@ -148,7 +148,7 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "", "frame_id", "", "frame_id is empty" },
     { "", "frame_id", "/world", "must not begin with a slash" },
     { "", "paused", 1, "must be true or false" },
-    { "", "pace", "clock", "must be one of free, step, wall" },
+    { "", "pace", "clock", "pace is \"clock\", which is not served yet, must be one of free" },
     { "", "pace", "", "must be one of free, step, wall" },
     { "", "solver", 1, "must be one of force_springs, xpbd" },
     { "", "time_step", "1e-3", "write 1.0e-3" },
@@ -164,6 +164,10 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "cloth_pose", "position", list({ 0, 0, "up" }), "cloth_pose/position[2] is the text" },
     { "cloth_pose", "position", list({ 0, 0, infinity }), "position[2] is inf, must be finite" },
     { "cloth_pose", "rotation", list({ 0, 0, 0, 0 }), "must be a unit quaternion" },
+    { "cloth_pose", "position", list({ 0, -2e7, 0 }),
+      "cloth_pose/position [m].y is -2e+07, must be at least -1e+07 and at most 1e+07" },
+    { "import", "scale", -1.0, "import/scale is -1" },
+    { "import", "weld_distance", -1.0, "import/weld_distance is -1" },
     { "rectangle", "columns", 1, "rectangle/columns is 1" },
     { "rectangle", "seed", -1, "rectangle/seed is -1" },
     { "rectangle", "pattern", "knitted", "alternating, irregular, one_diagonal" },
@@ -171,6 +175,9 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "rectangle", "slits", 1, "must be a list, each entry a list of 4 numbers" },
     { "pins", "edges", "top", "must be a list of names" },
     { "pins", "particles", list({ 1.5 }), "must be a list of whole numbers" },
+    { "pins", "particles", list({ -1 }), "pins: pinned particle -1 must be at least 0" },
+    { "pins", "edges", list({ "middle" }), "pins: pin edge \"middle\" is not one of top, bottom" },
+    { "pins", "regions", list({ list({ 0, 0, 0, 0 }) }), "pins: pin region radius [m] is 0" },
     { "tearing", "weak_tear_strain", 99.0, "tearing/weak_tear_strain" },
     { "contact", "friction", -0.1, "contact/friction" },
     { "markers", "checks", 0, "markers/checks is 0" },
@@ -183,6 +190,15 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     EXPECT_NE(found.find(c.expected), std::string::npos)
         << c.group << "/" << c.entry << ": no '" << c.expected << "' in: " << found;
   }
+}
+
+TEST(ParamsLoader, ChecksTheRectangleThoughAModelIsNamed)
+{
+  XmlRpcValue tree;
+  tree["model_file"] = "/models/towel.obj";
+  tree["rectangle"]["columns"] = 1;
+
+  EXPECT_NE(joined(loadParams(tree).problems).find("rectangle/columns is 1"), std::string::npos);
 }
 
 TEST(ParamsLoader, SuggestsTheNameThatWasMeant)

@@ -53,28 +53,60 @@ bool pinRegion(const ClothModel& model, const PinParams::Region& region, std::se
   return any;
 }
 
+std::vector<std::string> problems(const PinParams::Region& region)
+{
+  std::vector<std::string> found;
+  check(found, "pin region center [m]", region.center, MAX_COORDINATE);
+  check(found, "pin region radius [m]", region.radius, Range::aboveUpTo(0.0, MAX_COORDINATE));
+  return found;
+}
+
+bool isEdge(const std::string& name)
+{
+  return name == "top" || name == "bottom" || name == "left" || name == "right";
+}
+
 }  // namespace
 
-std::vector<int> pinnedParticles(const ClothModel& model, const PinParams& pins)
+std::vector<std::string> problems(const PinParams& pins)
 {
-  static const std::set<std::string> EDGES = { "top", "bottom", "left", "right" };
   std::vector<std::string> found;
-  std::set<int> pinned;
   for (const std::string& edge : pins.edges)
   {
-    if (EDGES.count(edge) == 0)
+    if (!isEdge(edge))
     {
       found.push_back("pin edge \"" + edge + "\" is not one of top, bottom, left, right");
-      continue;
     }
-    pinEdge(model, edge, pinned);
   }
   for (const PinParams::Region& region : pins.regions)
   {
-    const std::size_t before = found.size();
-    check(found, "pin region center [m]", region.center, MAX_COORDINATE);
-    check(found, "pin region radius [m]", region.radius, Range::aboveUpTo(0.0, MAX_COORDINATE));
-    if (found.size() == before && !pinRegion(model, region, pinned))
+    const std::vector<std::string> wrong = problems(region);
+    found.insert(found.end(), wrong.begin(), wrong.end());
+  }
+  for (int particle : pins.particles)
+  {
+    if (particle < 0)
+    {
+      found.push_back("pinned particle " + std::to_string(particle) + " must be at least 0");
+    }
+  }
+  return found;
+}
+
+std::vector<int> pinnedParticles(const ClothModel& model, const PinParams& pins)
+{
+  std::vector<std::string> found = problems(pins);
+  std::set<int> pinned;
+  for (const std::string& edge : pins.edges)
+  {
+    if (isEdge(edge))
+    {
+      pinEdge(model, edge, pinned);
+    }
+  }
+  for (const PinParams::Region& region : pins.regions)
+  {
+    if (problems(region).empty() && !pinRegion(model, region, pinned))
     {
       found.push_back("pin region at (" + text(region.center.x()) + ", " + text(region.center.y()) +
                       ", " + text(region.center.z()) + ") with radius " + text(region.radius) +
@@ -83,7 +115,7 @@ std::vector<int> pinnedParticles(const ClothModel& model, const PinParams& pins)
   }
   for (int particle : pins.particles)
   {
-    if (particle < 0 || particle >= static_cast<int>(model.positions.size()))
+    if (particle >= static_cast<int>(model.positions.size()))
     {
       found.push_back("pinned particle " + std::to_string(particle) +
                       " does not exist: the model has " + std::to_string(model.positions.size()));

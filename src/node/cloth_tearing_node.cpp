@@ -80,7 +80,7 @@ int run(const sigset_t& signals)
   }
   catch (const std::exception& error)
   {
-    ROS_FATAL_STREAM("There is no such cloth: " << error.what());
+    ROS_FATAL_STREAM("cannot build the cloth: " << error.what());
     return 1;
   }
   return 0;

@@ -17,6 +17,8 @@ using cloth::Range;
 namespace
 {
 
+constexpr double FARTHEST_ORIGIN = 1e7;  // [m], of the cloth frame from that of frame_id
+
 void append(std::vector<std::string>& found, const std::string& group,
             const std::vector<std::string>& problems)
 {
@@ -117,19 +119,16 @@ std::vector<std::string> problems(const NodeParams& params)
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
   checkStyle(found, params.markers);
-  if (params.model_file.empty())
+  check(found, "cloth_pose/position [m]", params.cloth_pose.position, FARTHEST_ORIGIN);
+  if (!params.model_file.empty() && !inPackage(params.model_file) &&
+      params.model_file.front() != '/')
   {
-    append(found, "rectangle/", problems(params.rectangle));
+    found.push_back("model_file is \"" + params.model_file + "\", must be an absolute path or " +
+                    PACKAGE_SCHEME + "PACKAGE/PATH");
   }
-  else
-  {
-    if (!inPackage(params.model_file) && params.model_file.front() != '/')
-    {
-      found.push_back("model_file is \"" + params.model_file + "\", must be an absolute path or " +
-                      PACKAGE_SCHEME + "PACKAGE/PATH");
-    }
-    append(found, "import/", problems(params.import));
-  }
+  append(found, "import/", problems(params.import));
+  append(found, "rectangle/", problems(params.rectangle));
+  append(found, "pins: ", problems(params.pins));
   append(found, "", grouped(params.simulation));
   return found;
 }

@@ -18,7 +18,7 @@ void readNode(ParamReader& reader, NodeParams& params)
                                  { { "wall", cloth::Pace::WALL },
                                    { "free", cloth::Pace::FREE },
                                    { "step", cloth::Pace::STEP } },
-                                 params.pace);
+                                 params.pace, { "clock" });
   reader.read("paused", params.paused);
   reader.read("tf_patience", params.tf_patience);
   reader.read("command_patience", params.command_patience);

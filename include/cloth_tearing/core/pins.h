@@ -25,6 +25,9 @@ struct PinParams
   std::vector<int> particles;  ///< vertex indices of the imported model
 };
 
+/// Everything wrong with `pins` by themselves, whatever the model.
+std::vector<std::string> problems(const PinParams& pins);
+
 /// The particles that `pins` names, ascending, each once.
 ///
 /// @throws Refusal naming an unknown edge, a region without particles, an index out of range
