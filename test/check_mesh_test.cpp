@@ -114,6 +114,39 @@ TEST(CheckMesh, JoinsFindingsThatSayTheSame)
       << checkMesh(file.path()).output;
 }
 
+TEST(CheckMesh, ListsFindingsOfOneKindOnceWithTheFirstPlaces)
+{
+  std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  for (int i = 0; i < 8; ++i)
+  {
+    text += "v 0 0 1\nvn 0 0 1\n";  // on every other line, so each place stands alone
+  }
+  const File file(text + "f 1 2 3\n");
+
+  const std::string output = checkMesh(file.path()).output;
+
+  EXPECT_TRUE(holds(output,
+                    "lines 4, 6, 8, 10, 12, ...: vertex 4 is in no face, left out "
+                    "(8 like this)\n"))
+      << output;
+  EXPECT_FALSE(holds(output, "vertex 5 is in no face")) << output;
+}
+
+TEST(CheckMesh, RefusesAFileInMillimetresAsTheNodeDoes)
+{
+  const File file("v 0 0 0\nv 1500 0 0\nv 0 1500 0\nf 1 2 3\n");
+
+  const Answer as_it_is = checkMesh(file.path());
+  const Answer scaled = checkMesh("--scale 0.001 " + file.path());
+
+  EXPECT_EQ(as_it_is.status, 1);
+  EXPECT_TRUE(holds(as_it_is.output,
+                    "line 2: a coordinate of 1500 m, must be at most 1000 m: "
+                    "scale it down (--scale, import/scale)"))
+      << as_it_is.output;
+  EXPECT_EQ(scaled.status, 0) << scaled.output;
+}
+
 TEST(CheckMesh, EndsWithTwoAndItsUsageIfItIsCalledWrongly)
 {
   struct Case

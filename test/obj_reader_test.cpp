@@ -178,7 +178,10 @@ TEST(ObjReader, RefusesWithFileLineAndReason)
     { "v 0 1.#INF 0\n" + square(), "line 1: \"1.#INF\" is not a finite number" },
     { "v 1e400 0 0\n" + square(), "line 1: \"1e400\" is not a finite number" },
     { "v 1e999999999999999999 0 0\n" + square(), "is not a finite number" },
-    { "v 1e300 0 0\n" + square(), "line 1: a coordinate of 1e+300 m, must be at most 1e+06 m" },
+    { "v 1e300 0 0\n" + square(),
+      "line 1: a coordinate of 1e+300 m, must be at most 1000 m: scale it down" },
+    { "vt 1e7 0\n" + square(), "line 1: a texture coordinate of 1e+07, must be at most 1e+06" },
+    { "vt 0 -1e7\n" + square(), "line 1: a texture coordinate of 1e+07, must be at most 1e+06" },
     { "vt\n" + square(), "line 1: vt has 0 numbers, must have 1 to 3" },
     { "vt 0 inf\n" + square(), "line 1: \"inf\" is not a finite number" },
     { square("f 1 2\n"), "line 5: the face has 2 corners, must have 3 or more" },
@@ -689,7 +692,7 @@ TEST(ObjReader, AcceptsBowTiesSeveralObjectsAndClosedSurfaces)
 
 TEST(ObjReader, LeavesOutVerticesInNoFace)
 {
-  const ObjImport cloth = import("v 900000 0 0\n" + square("f 2 3 4\nf 2 4 5\n"));
+  const ObjImport cloth = import("v 900 0 0\n" + square("f 2 3 4\nf 2 4 5\n"));
 
   EXPECT_EQ(cloth.report.particles, 4);
   EXPECT_EQ(cloth.report.unused_vertices, 1);

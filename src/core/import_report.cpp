@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr std::size_t MAX_PROBLEMS_SHOWN = 10;
-constexpr double MOST_COORDINATE = 1e9;  // [m]; volumes of boxes stay far from overflow
+constexpr double MOST_COORDINATE = 1e9;  // volumes of boxes stay far from overflow
 
 }  // namespace
 
@@ -25,6 +25,8 @@ std::vector<std::string> problems(const ImportOptions& options)
   check(found, "max_triangles", options.max_triangles, Range::atLeast(1));
   check(found, "max_polygon_corners", options.max_polygon_corners, Range::atLeast(3));
   check(found, "max_coordinate", options.max_coordinate, Range::aboveUpTo(0, MOST_COORDINATE));
+  check(found, "max_texture_coordinate", options.max_texture_coordinate,
+        Range::aboveUpTo(0, MOST_COORDINATE));
   return found;
 }
 

@@ -10,6 +10,8 @@
 #include <map>
 #include <sstream>
 
+#include "cloth_tearing/core/checks.h"
+
 namespace cloth
 {
 namespace
@@ -392,6 +394,12 @@ private:
   {
     double uv[2] = { 0, 0 };
     readNumbers("vt", rest, 1, 3, uv, 2);
+    const double largest = std::max(std::abs(uv[0]), std::abs(uv[1]));
+    if (largest > options_.max_texture_coordinate)
+    {
+      problem("a texture coordinate of " + text(largest) + ", must be at most " +
+              text(options_.max_texture_coordinate));
+    }
     refuseBeyond(content_.uvs.size(), options_.max_vertices, "texture vertices", "max_vertices");
     content_.uvs.emplace_back(uv[0], uv[1]);
   }

@@ -136,7 +136,8 @@ private:
       {
         problems_.add(content_.lines[i], "a coordinate of " + text(largest) +
                                              " m, must be at most " +
-                                             text(options_.max_coordinate) + " m (max_coordinate)");
+                                             text(options_.max_coordinate) +
+                                             " m: scale it down (--scale, import/scale)");
       }
     }
     problems_.refuseIfAny();

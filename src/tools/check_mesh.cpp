@@ -1,9 +1,11 @@
 // Command check_mesh: says what the importer makes of model files.
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cloth_tearing/core/obj_reader.h"
@@ -98,44 +100,84 @@ std::string counted(int count, const std::string& thing, const std::string& thin
   return std::to_string(count) + " " + (count == 1 ? thing : things);
 }
 
-// Findings that say the same of several lines, as one: "lines 3-7, 9".
+// A finding without its numbers: what those of one kind have in common.
+std::string kindOf(const std::string& text)
+{
+  std::string kind;
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const bool number = text[i] >= '0' && text[i] <= '9';
+    kind += number ? '#' : text[i];
+    const std::size_t end = number ? text.find_first_not_of("0123456789.e+-", i) : i + 1;
+    i = std::min(end, text.size());
+  }
+  return kind;
+}
+
+// Lines in rising order, as "3-7, 9"; after the first few places "...".
+class Places
+{
+public:
+  void add(int line)
+  {
+    if (ranges_.empty() || line > ranges_.back().second + 1)
+    {
+      ranges_.emplace_back(line, line);
+    }
+    ranges_.back().second = line;
+  }
+
+  std::string text() const
+  {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(ranges_.size(), SHOWN); ++i)
+    {
+      const auto& [first, last] = ranges_[i];
+      text += (i == 0 ? "" : ", ") + std::to_string(first);
+      text += last > first ? "-" + std::to_string(last) : "";
+    }
+    return text + (ranges_.size() > SHOWN ? ", ..." : "");
+  }
+
+private:
+  static constexpr std::size_t SHOWN = 5;
+
+  std::vector<std::pair<int, int>> ranges_;
+};
+
+// Findings of one kind are one line, with the words of the first.
 void printFindings(const std::vector<cloth::ImportFinding>& findings)
 {
   struct Group
   {
-    std::string lines;
-    int first = 0;
-    int last = 0;
+    std::string text;
+    bool alike = false;  // other numbers in the others
     int count = 0;
+    Places places;
   };
-  std::vector<std::string> order;
-  std::map<std::string, Group> groups;
-  const auto closeRange = [](Group& group)
-  {
-    group.lines += (group.lines.empty() ? "" : ", ") + std::to_string(group.first) +
-                   (group.last > group.first ? "-" + std::to_string(group.last) : "");
-  };
+  std::vector<Group> groups;
+  std::map<std::string, std::size_t> index_of_kind;
   for (const cloth::ImportFinding& finding : findings)
   {
-    Group& group = groups[finding.text];
-    if (group.count++ == 0)
+    const auto found = index_of_kind.emplace(kindOf(finding.text), groups.size());
+    if (found.second)
     {
-      order.push_back(finding.text);
-      group.first = finding.line;
+      groups.push_back({ finding.text, false, 0, {} });
     }
-    else if (finding.line > group.last + 1)
-    {
-      closeRange(group);
-      group.first = finding.line;
-    }
-    group.last = finding.line;
+    Group& group = groups[found.first->second];
+    group.alike = group.alike || finding.text != group.text;
+    ++group.count;
+    group.places.add(finding.line);
   }
-  for (const std::string& text : order)
+  for (const Group& group : groups)
   {
-    Group& group = groups[text];
-    closeRange(group);
-    std::cout << "    " << (group.count == 1 ? "line " : "lines ") << group.lines << ": " << text
-              << (group.count == 1 ? "" : " (" + std::to_string(group.count) + " times)") << "\n";
+    std::cout << "    " << (group.count == 1 ? "line " : "lines ") << group.places.text() << ": "
+              << group.text;
+    if (group.count > 1)
+    {
+      std::cout << " (" << group.count << (group.alike ? " like this)" : " times)");
+    }
+    std::cout << "\n";
   }
 }
 
