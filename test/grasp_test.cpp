@@ -147,6 +147,22 @@ TEST_F(GraspedSheet, RefusesWhatIsNoPlaceAndNoPose)
   EXPECT_EQ(simulation.stateHash(), hash);
 }
 
+TEST_F(GraspedSheet, NamesAPointThatIsNoPlaceOnce)
+{
+  GraspRequest request;
+  request.point = Vec3d(1e7, 0, 0);
+  request.frame.position = request.point;
+  EXPECT_EQ(refusalOf([&] { simulation.grasp(request); }),
+            "point [m].x is 1e+07, must be at least -1000 and at most 1000");
+}
+
+TEST(PinnedSheet, SaysInWordsThatThereIsNothingToTakeHoldOf)
+{
+  Simulation simulation(sheet(1, 1, 2, 2), { 0, 1, 2, 3 }, SimulationParams());
+  EXPECT_EQ(refusalOf([&] { simulation.grasp(GraspRequest()); }),
+            "there is no particle to take hold of: all are pinned or were put to rest");
+}
+
 TEST_F(GraspedSheet, FollowsADragAtItsSpeedAndArrives)
 {
   const Vec3d start = at(60);

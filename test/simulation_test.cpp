@@ -144,6 +144,26 @@ TEST(Utilisation, IsOneWhereTheNextTearIs)
   EXPECT_GT(before, 0.9);
 }
 
+TEST(ThrownSpheres, AreRefusedWhenThereAreAThousand)
+{
+  Simulation simulation = hanging(tearable());
+  for (int i = 0; i < 1000; ++i)
+  {
+    simulation.throwSphere(ThrowRequest());
+  }
+  try
+  {
+    simulation.throwSphere(ThrowRequest());
+    FAIL() << "must be refused";
+  }
+  catch (const Refusal& refusal)
+  {
+    EXPECT_STREQ(refusal.what(),
+                 "there are 1000 spheres, must be less than 1000 for one to be thrown");
+  }
+  EXPECT_EQ(simulation.spheres().size(), 1000u);
+}
+
 TEST(Reset, BringsTheFirstStateBackAndTimeGoesOn)
 {
   Simulation simulation = hanging(tearable());

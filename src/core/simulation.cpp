@@ -18,6 +18,9 @@ namespace
 /// How often a loose piece is looked for beyond the bounds [steps].
 constexpr std::uint64_t BOUNDS_INTERVAL = 100;
 
+/// Thrown spheres wait until there are fewer, streamed ones included.
+constexpr std::size_t MOST_SPHERES = 1000;
+
 /// A streamed sphere takes no longer than this to where it is placed [s].
 constexpr double LONGEST_GLIDE = 0.1;
 
@@ -351,7 +354,10 @@ GraspTaken Simulation::grasp(const GraspRequest& request)
   std::vector<std::string> found;
   check(found, "point [m]", request.point, MAX_COORDINATE);
   check(found, "radius [m]", request.radius, Range::between(0.0, MAX_COORDINATE));
-  check(found, "frame position [m]", request.frame.position, MAX_COORDINATE);
+  if (request.frame.position != request.point)  // as it mostly is: told once
+  {
+    check(found, "frame position [m]", request.frame.position, MAX_COORDINATE);
+  }
   check(found, "frame orientation", request.frame.rotation);
   refuseIf(found);
 
@@ -361,6 +367,10 @@ GraspTaken Simulation::grasp(const GraspRequest& request)
   {
     const double reach = request.radius > 0.0 ? request.radius : params_.max_grasp_distance;
     const std::string limit = request.radius > 0.0 ? "radius" : "max_grasp_distance";
+    if (std::isinf(taken.distance))
+    {
+      throw Refusal("there is no particle to take hold of: all are pinned or were put to rest");
+    }
     throw Refusal("there is no particle within " + text(reach) + " m (" + limit +
                   ") of the point; the nearest that is not pinned is " + text(taken.distance) +
                   " m away");
@@ -507,6 +517,11 @@ std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
   sphere.time_left = request.lifetime;
   std::vector<std::string> found = problems(sphere);
   check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, 1e6));
+  if (spheres_.size() >= MOST_SPHERES)
+  {
+    found.push_back("there are " + std::to_string(spheres_.size()) + " spheres, must be less than " +
+                    std::to_string(MOST_SPHERES) + " for one to be thrown");
+  }
   refuseIf(found);
   spheres_.push_back(sphere);
   return next_thrown_++;

@@ -140,7 +140,7 @@ public:
   void setSpheres(const std::vector<Sphere>& spheres);
 
   /// @return the id of the thrown sphere
-  /// @throws Refusal naming everything wrong with it
+  /// @throws Refusal naming everything wrong with it, or that there are too many spheres
   std::uint64_t throwSphere(const ThrowRequest& request);
 
   /// Changes the rules from the next step on, to switch tearing on and off or tune it; hem_width
