@@ -226,6 +226,80 @@ TEST(Xpbd, StaysCalmAtALongStepAndAnyStiffness)
   }
 }
 
+Simulation hungSquare(int particles, const SimulationParams& params)
+{
+  const ClothModel flat = sheet(1.0, 1.0, particles, particles);
+  return { upright(flat), edgeOf(flat, "top"), params };
+}
+
+TEST(XpbdSoftness, IsNotedAtTheStart)
+{
+  SimulationParams params;
+  EXPECT_TRUE(hungSquare(30, params).startNotes().empty());
+
+  params.solver.time_step = 0.003;
+  const std::vector<std::string> notes = hungSquare(30, params).startNotes();
+
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("softer than stiffness says"), std::string::npos) << notes[0];
+}
+
+TEST(XpbdSoftness, TearsNoClothByItsOwnWeightAtAStepThatIsAccepted)
+{
+  for (const auto& [particles, time_step] : { std::pair{ 30, 0.0047 }, std::pair{ 60, 0.0023 } })
+  {
+    SimulationParams params;
+    params.solver.time_step = time_step;
+    Simulation simulation = hungSquare(particles, params);
+
+    EXPECT_TRUE(run(simulation, stepsFor(simulation, 2.0)).empty()) << particles;
+  }
+}
+
+TEST(XpbdSoftness, ThatWouldTearTheClothByItsOwnWeightIsRefused)
+{
+  SimulationParams params;
+  params.solver.time_step = 0.01;
+  try
+  {
+    hungSquare(30, params);
+    FAIL() << "must be refused";
+  }
+  catch (const Refusal& refusal)
+  {
+    const std::string what = refusal.what();
+    EXPECT_NE(what.find("time_step [s] is 0.01"), std::string::npos) << what;
+    EXPECT_NE(what.find("must be at most 0.15"), std::string::npos) << what;
+  }
+
+  params.tearing.enabled = false;
+  Simulation untearing = hungSquare(30, params);
+  EXPECT_THROW(untearing.setTearRules(TearRules()), Refusal);
+}
+
+TEST(XpbdSoftness, IsNoMatterOfAFewSlivers)
+{
+  ClothModel model = sheet(1.0, 1.0, 12, 12);
+  const Cloth regular = makeCloth(model, {}, cotton(), RestShapeSource::IMPORTED, 0.0);
+  model.positions[70] += 0.98 * (model.positions[71] - model.positions[70]);
+  const Cloth pinched = makeCloth(model, {}, cotton(), RestShapeSource::IMPORTED, 0.0);
+  const auto solver = makeSolver(SolverParams());
+
+  EXPECT_NEAR(solver->stiffnessNumber(pinched.state, pinched.springs, 0.001),
+              solver->stiffnessNumber(regular.state, regular.springs, 0.001), 0.05);
+}
+
+TEST(Time, DoesNotDrift)
+{
+  Simulation simulation(sheet(1.0, 1.0, 3, 3), {}, vacuum());
+  run(simulation, 1000);
+  EXPECT_EQ(simulation.time(), 1.0);
+
+  simulation.reset();
+  run(simulation, 500);
+  EXPECT_EQ(simulation.time(), 1.5);
+}
+
 TEST(Xpbd, DoesNotLimitStrain)
 {
   Cloth cloth = makeCloth(hangingTriangle(), { 0, 1 }, cotton(), RestShapeSource::IMPORTED, 0.0);
@@ -334,7 +408,7 @@ TEST(StabilityOfForceSprings, TakesAsManySubstepsAsTheStiffestParticleNeeds)
     params.max_substeps = 64;
 
     const Stability stability =
-        makeSolver(params)->checkStability(cloth.state, cloth.springs, 0.001);
+        makeSolver(params)->checkStability(cloth.state, cloth.springs, 0.001, 0.0);
 
     const int least = substepsByTheLaw(cloth, 0.001);
     EXPECT_EQ(stability.floored, 0);
@@ -393,7 +467,7 @@ TEST(StabilityOfForceSprings, TreatsParticlesTooLightForTheSubstepsAsHeavier)
   params.max_strain = 10.0;
   const auto solver = makeSolver(params);
 
-  const Stability stability = solver->checkStability(cloth.state, cloth.springs, 0.001);
+  const Stability stability = solver->checkStability(cloth.state, cloth.springs, 0.001, 0.0);
   EXPECT_EQ(stability.substeps, 2);
   EXPECT_EQ(stability.floored, cloth.state.size());
 
@@ -404,6 +478,50 @@ TEST(StabilityOfForceSprings, TreatsParticlesTooLightForTheSubstepsAsHeavier)
     solver->advance(cloth.state, cloth.springs, still, 0.001);
   }
   EXPECT_LT(fastest(cloth.state), 2.0) << "and stays stable so";
+}
+
+TEST(StabilityOfForceSprings, LeavesRoomForAirThatBrakesHard)
+{
+  Material material = cotton();
+  material.stiffness = 900.0;
+  const Cloth cloth =
+      makeCloth(sheet(1.0, 1.0, 12, 12), {}, material, RestShapeSource::IMPORTED, 0.0);
+  const auto substeps = [&](double air_rate)
+  {
+    return makeSolver(forceSprings())
+        ->checkStability(cloth.state, cloth.springs, 0.001, air_rate)
+        .substeps;
+  };
+
+  EXPECT_GT(substeps(900.0), substeps(0.0));
+}
+
+TEST(StabilityOfForceSprings, IsNotedWithoutLightParticlesWhereThereAreNone)
+{
+  SimulationParams params = tearable(SolverKind::FORCE_SPRINGS);
+  params.solver.max_substeps = 64;
+  params.solver.time_step = 0.004;
+  Simulation simulation = hungSquare(12, params);
+  GraspRequest request;
+  request.point = Vec3d(0.0, 0.0, -1.0);
+  request.radius = 0.15;
+  request.frame.position = request.point;
+  DragTarget target;
+  target.pose.position = Vec3d(0.0, 0.0, -1.8);
+  simulation.drag(simulation.grasp(request).id, target);
+
+  std::vector<std::string> notes = simulation.startNotes();
+  for (int i = 0; i < 300; ++i)
+  {
+    const StepReport report = simulation.step();
+    notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+  }
+
+  ASSERT_GE(notes.size(), 2u) << "at the start, and after tears";
+  for (const std::string& note : notes)
+  {
+    EXPECT_EQ(note.find("light particles"), std::string::npos) << note;
+  }
 }
 
 TEST(SolverParams, AreRefusedByNameBeyondTheirLimits)

@@ -103,16 +103,18 @@ void ForceSprings::limitStrain(ParticleState& state, const SpringTable& springs)
 }
 
 Stability ForceSprings::checkStability(const ParticleState& state, const SpringTable& springs,
-                                       double dt)
+                                       double dt, double air_rate)
 {
   sumStiffness(state, springs);
-  // A particle with its springs is stable while h^2 (2 sum k / m) + 2 h (2 sum c / m) < 4.
+  // A particle with its springs is stable while
+  // h^2 (2 sum k / m) + 2 h (2 sum c / m) + 2 dt air_rate < 4: air acts once a step.
+  const double range = SAFETY * 4.0 - 2.0 * dt * air_rate;
   const auto lightest = [&](int particle, int substeps)
   {
     const double h = dt / substeps;
     const double load =
         h * h * 2.0 * stiffness_sum_[particle] + 2.0 * h * 2.0 * damping_sum_[particle];
-    return load > 0.0 ? SAFETY * 4.0 / load : std::numeric_limits<double>::max();
+    return load > 0.0 ? range / load : std::numeric_limits<double>::max();
   };
   const auto tooLight = [&](int substeps)
   {

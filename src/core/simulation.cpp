@@ -24,17 +24,43 @@ constexpr std::size_t MOST_SPHERES = 1000;
 /// A streamed sphere takes no longer than this to where it is placed [s].
 constexpr double LONGEST_GLIDE = 0.1;
 
+/// Solver::stiffnessNumber at which a hanging cloth stretches about twice as far as it should.
+constexpr double SOFT = 4.0;
+
+/// What a step may add to the strain of the hanging cloth, as a fraction of tear_strain. Sheets of
+/// 30 x 30 and 60 x 60 particles hold at 0.7 and tear by their own weight at 0.95.
+constexpr double LARGEST_SAG = 0.5;
+
+/// How far the cloth reaches: the diagonal of the box around it [m].
+double reachOf(const Cloth& cloth)
+{
+  Vec3 low = Vec3::Constant(std::numeric_limits<Real>::max());
+  Vec3 high = -low;
+  for (const Vec3& x : cloth.state.position)
+  {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return (high - low).cast<double>().norm();
+}
+
 void append(std::vector<std::string>& found, const std::vector<std::string>& more)
 {
   found.insert(found.end(), more.begin(), more.end());
+}
+
+/// How fast air brakes cloth [1/s].
+double airRate(const SimulationParams& params)
+{
+  const Environment& air = params.environment;
+  return air.air_friction + air.wind_drag / params.material.areal_density;
 }
 
 /// Air acts on the speed at the start of a step: braking by more than this speed would turn it
 /// round, and at twice that let it grow without end.
 void checkAir(std::vector<std::string>& found, const SimulationParams& params)
 {
-  const Environment& air = params.environment;
-  const double rate = air.air_friction + air.wind_drag / params.material.areal_density;
+  const double rate = airRate(params);
   const double dt = params.solver.time_step;
   if (params.material.areal_density > 0.0 && rate * dt > 1.0)
   {
@@ -73,48 +99,59 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
     , untorn_(
           makeCloth(model, pinned, params.material, params.rest_shape, params.tearing.hem_width))
     , cloth_(untorn_)
-    , solver_(makeSolver(params.solver))
+    , solver_(params.solver)
     , tearing_(params.tearing)
 {
-  const double dt = params_.solver.time_step;
-  stability_ = solver_->checkStability(cloth_.state, cloth_.springs, dt);
+  stability_ = findStability();
+  start_stability_ = stability_;
   if (stability_.floored > 0)
   {
-    throw Refusal("time_step [s] is " + text(dt) + ", too long for the force springs of " +
-                  std::to_string(stability_.floored) + " particles even in max_substeps = " +
-                  std::to_string(params_.solver.max_substeps) +
-                  " substeps: lower it or the stiffness, or raise areal_density or max_substeps");
+    throw Refusal(
+        "time_step [s] is " + text(params_.solver.time_step) +
+        ", too long for the force springs of " + std::to_string(stability_.floored) +
+        " particles even in max_substeps = " + std::to_string(params_.solver.max_substeps) +
+        " substeps: lower it or the stiffness, or raise areal_density or max_substeps");
+  }
+  refuseTooSoft(params_.tearing);
+}
+
+void Simulation::refuseTooSoft(const TearRules& rules) const
+{
+  // A number of 4 doubles the strain under the cloth's own weight.
+  const double dt = params_.solver.time_step;
+  const double number = solver_->stiffnessNumber(untorn_.state, untorn_.springs, dt);
+  const double weight = params_.material.areal_density * params_.environment.gravity.norm() *
+                        reachOf(untorn_) / params_.material.stiffness;
+  const double sag = weight * number / SOFT;
+  const double limit = LARGEST_SAG * rules.tear_strain;
+  if (rules.enabled && sag > limit)
+  {
+    throw Refusal("time_step [s] is " + text(dt) +
+                  ", too long for so fine a mesh: the cloth would tear by its own weight. The step "
+                  "alone adds a strain of " +
+                  text(sag) + ", must be at most " + text(limit) +
+                  ", half of tear_strain: lower time_step, take a coarser mesh, or switch tearing "
+                  "off");
   }
 }
 
-Simulation::Simulation(const Simulation& other)
-    : params_(other.params_)
-    , untorn_(other.untorn_)
-    , cloth_(other.cloth_)
-    , solver_(other.solver_->clone())
-    , contact_(other.contact_)
-    , tearing_(other.tearing_)
-    , pieces_(other.pieces_)
-    , grasps_(other.grasps_)
-    , spheres_(other.spheres_)
-    , acceleration_(other.acceleration_)
-    , undo_(other.undo_)
-    , stability_(other.stability_)
-    , log_(other.log_)
-    , tears_(other.tears_)
-    , time_(other.time_)
-    , step_(other.step_)
-    , epoch_(other.epoch_)
-    , next_sequence_(other.next_sequence_)
-    , next_grasp_(other.next_grasp_)
-    , next_thrown_(other.next_thrown_)
+std::vector<std::string> Simulation::startNotes() const
 {
-}
-
-Simulation& Simulation::operator=(const Simulation& other)
-{
-  *this = Simulation(other);
-  return *this;
+  std::vector<std::string> notes;
+  const double dt = params_.solver.time_step;
+  const double number = solver_->stiffnessNumber(untorn_.state, untorn_.springs, dt);
+  if (number > SOFT)
+  {
+    notes.push_back("the cloth is softer than stiffness says: (1/m_a + 1/m_b) dt^2 k is " +
+                    text(number) + ", should be at most " + text(SOFT) +
+                    "; lower time_step or stiffness, or raise areal_density");
+  }
+  if (start_stability_.substeps > 1)
+  {
+    notes.push_back("the force springs take " + std::to_string(start_stability_.substeps) +
+                    " substeps a step");
+  }
+  return notes;
 }
 
 StepReport Simulation::step()
@@ -141,7 +178,6 @@ StepReport Simulation::step()
     return report;
   }
   ++step_;
-  time_ += dt;
   report.tears = tearing_.tear(
       cloth_, grasps_,
       [this](const Vec3& x) { return isInsideObstacle(x, spheres_, params_.contact); },
@@ -194,15 +230,24 @@ std::string Simulation::findFault(double max_strain) const
   return {};
 }
 
+Stability Simulation::findStability()
+{
+  return solver_->checkStability(cloth_.state, cloth_.springs, params_.solver.time_step,
+                                 airRate(params_));
+}
+
 void Simulation::checkStability(std::vector<std::string>& notes)
 {
-  const Stability stability =
-      solver_->checkStability(cloth_.state, cloth_.springs, params_.solver.time_step);
+  const Stability stability = findStability();
   if (stability.substeps != stability_.substeps || stability.floored > stability_.floored)
   {
-    notes.push_back("the force springs take " + std::to_string(stability.substeps) +
-                    " substeps a step, " + std::to_string(stability.floored) +
-                    " light particles at the mass floor");
+    std::string note =
+        "the force springs take " + std::to_string(stability.substeps) + " substeps a step";
+    if (stability.floored > 0)
+    {
+      note += ", " + std::to_string(stability.floored) + " light particles at the mass floor";
+    }
+    notes.push_back(note);
   }
   stability_ = stability;
 }
@@ -214,7 +259,7 @@ void Simulation::record(StepReport& report)
     event.sequence = next_sequence_++;
     event.epoch = epoch_;
     event.step = step_;
-    event.time = time_;
+    event.time = time();
     event.cause = causeOf(event.position);
     ++tears_[static_cast<int>(event.kind)];
     log_.push_back(event);
@@ -310,11 +355,12 @@ void Simulation::putToRest(const std::vector<ParticleId>& piece)
 void Simulation::reset()
 {
   cloth_ = untorn_;
-  solver_ = makeSolver(params_.solver);
-  stability_ = solver_->checkStability(cloth_.state, cloth_.springs, params_.solver.time_step);
+  solver_ = SolverHandle(params_.solver);
+  stability_ = findStability();
   grasps_.clear();
   spheres_.clear();
   tears_ = {};
+  start_time_ = time();
   step_ = 0;
   ++epoch_;
 }
@@ -487,6 +533,8 @@ Sphere Simulation::streamed(const Sphere& set) const
   sphere.jump = Vec3d::Zero();
   sphere.jump_time = 0.0;
   sphere.age = 0.0;
+  sphere.fresh = true;
+  sphere.out = Vec3d::Zero();
   const auto known = std::find_if(spheres_.begin(), spheres_.end(),
                                   [&](const Sphere& s)
                                   { return s.source == SphereSource::STREAMED && s.id == set.id; });
@@ -498,6 +546,8 @@ Sphere Simulation::streamed(const Sphere& set) const
     if (jump.norm() <= params_.contact.max_sphere_speed * time)
     {
       sphere.center = known->center;
+      sphere.fresh = known->fresh;
+      sphere.out = known->out;
       sphere.jump = jump;
       sphere.jump_time = std::min(time, LONGEST_GLIDE);
     }
@@ -519,8 +569,9 @@ std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
   check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, 1e6));
   if (spheres_.size() >= MOST_SPHERES)
   {
-    found.push_back("there are " + std::to_string(spheres_.size()) + " spheres, must be less than " +
-                    std::to_string(MOST_SPHERES) + " for one to be thrown");
+    found.push_back("there are " + std::to_string(spheres_.size()) +
+                    " spheres, must be less than " + std::to_string(MOST_SPHERES) +
+                    " for one to be thrown");
   }
   refuseIf(found);
   spheres_.push_back(sphere);
@@ -530,6 +581,7 @@ std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
 void Simulation::setTearRules(const TearRules& rules)
 {
   refuseIf(problems(rules));
+  refuseTooSoft(rules);
   params_.tearing = rules;
   tearing_ = Tearing(rules);
 }
@@ -552,7 +604,7 @@ std::array<std::uint64_t, 2> Simulation::loggedTears() const
 Snapshot Simulation::snapshot() const
 {
   Snapshot snapshot{ makeSurface(cloth_), spheres_, grasps_ };
-  snapshot.surface.time = time_;
+  snapshot.surface.time = time();
   snapshot.surface.step = step_;
   snapshot.surface.epoch = epoch_;
   return snapshot;
@@ -561,7 +613,7 @@ Snapshot Simulation::snapshot() const
 Summary Simulation::summary() const
 {
   Summary summary;
-  summary.time = time_;
+  summary.time = time();
   summary.step = step_;
   summary.epoch = epoch_;
   summary.revision = revision();

@@ -1,6 +1,8 @@
 // One Gauss-Seidel sweep of compliant distance constraints.
 #include "cloth_tearing/core/xpbd.h"
 
+#include <algorithm>
+
 namespace cloth
 {
 namespace
@@ -70,13 +72,26 @@ void XpbdSolver::advance(ParticleState& state, const SpringTable& springs,
   }
 }
 
-void XpbdSolver::limitStrain(ParticleState&, const SpringTable&)
+double XpbdSolver::stiffnessNumber(const ParticleState& state, const SpringTable& springs,
+                                   double dt) const
 {
-}
-
-Stability XpbdSolver::checkStability(const ParticleState&, const SpringTable&, double)
-{
-  return {};
+  std::vector<double> numbers;
+  for (const SpringLaw& spring : springs.structural)
+  {
+    if (spring.active())
+    {
+      const double w = state.inverse_mass[spring.a] + state.inverse_mass[spring.b];
+      numbers.push_back(w * spring.stiffness * dt * dt);
+    }
+  }
+  if (numbers.empty())
+  {
+    return 0.0;
+  }
+  const auto nine_tenths =
+      numbers.begin() + static_cast<std::ptrdiff_t>(9 * (numbers.size() - 1) / 10);
+  std::nth_element(numbers.begin(), nine_tenths, numbers.end());
+  return *nine_tenths;
 }
 
 }  // namespace cloth

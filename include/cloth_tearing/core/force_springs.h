@@ -20,8 +20,8 @@ public:
   void advance(ParticleState& state, const SpringTable& springs,
                const std::vector<Vec3>& acceleration, double dt) override;
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
-  Stability checkStability(const ParticleState& state, const SpringTable& springs,
-                           double dt) override;
+  Stability checkStability(const ParticleState& state, const SpringTable& springs, double dt,
+                           double air_rate) override;
 
 private:
   void addForces(const ParticleState& state, const std::vector<SpringLaw>& springs);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,14 +103,10 @@ class Simulation
 public:
   /// @param model in the cloth frame: its axes are those of the world it hangs in
   /// @param pinned particles that stand still
-  /// @throws Refusal naming everything wrong with `params`, TopologyError for a model that is no
-  /// mesh
+  /// @throws Refusal naming everything wrong with `params`, or that cloth so soft at this time_step
+  /// would tear by its own weight; TopologyError for a model that is no mesh
   Simulation(const ClothModel& model, const std::vector<int>& pinned,
              const SimulationParams& params);
-  Simulation(const Simulation& other);
-  Simulation& operator=(const Simulation& other);
-  Simulation(Simulation&&) = default;
-  Simulation& operator=(Simulation&&) = default;
 
   /// One tick of params().solver.time_step (design: carry, advance, limit, contact, tear).
   StepReport step();
@@ -145,17 +140,20 @@ public:
 
   /// Changes the rules from the next step on, to switch tearing on and off or tune it; hem_width
   /// counts from the next build of the cloth.
-  /// @throws Refusal naming everything wrong with them
+  /// @throws Refusal naming everything wrong with them, or as the constructor if they switch it on
   void setTearRules(const TearRules& rules);
 
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
   const std::vector<Grasp>& grasps() const { return grasps_; }
   const std::vector<Sphere>& spheres() const { return spheres_; }
-  double time() const { return time_; }
+  double time() const { return start_time_ + step_ * params_.solver.time_step; }
   std::uint64_t stepCount() const { return step_; }
   std::uint32_t epoch() const { return epoch_; }
   std::uint64_t revision() const { return cloth_.damage.tears; }
+
+  /// What users should know of the cloth as built: one too soft for its time_step, substeps.
+  std::vector<std::string> startNotes() const;
 
   /// Logged tears from sequence number `first` on, at most `most`.
   std::vector<TearEvent> tearsSince(std::uint64_t first, std::size_t most) const;
@@ -181,7 +179,9 @@ private:
   std::string findFault(double max_strain) const;
   void restLoosePieces(std::vector<std::string>& notes);
   void putToRest(const std::vector<ParticleId>& piece);
+  Stability findStability();
   void checkStability(std::vector<std::string>& notes);
+  void refuseTooSoft(const TearRules& rules) const;
   void record(StepReport& report);
   TearCause causeOf(const Vec3d& position) const;
   Grasp& findGrasp(std::uint64_t id);
@@ -192,7 +192,7 @@ private:
   SimulationParams params_;
   Cloth untorn_;  ///< as built, for reset()
   Cloth cloth_;
-  std::unique_ptr<Solver> solver_;
+  SolverHandle solver_;
   SphereContact contact_;
   Tearing tearing_;
   Pieces pieces_;
@@ -203,7 +203,8 @@ private:
   Stability stability_;
   std::deque<TearEvent> log_;
   std::array<std::uint64_t, TEAR_KINDS> tears_{};  ///< by kind, since the last reset
-  double time_ = 0.0;
+  Stability start_stability_;                      ///< of the cloth as built
+  double start_time_ = 0.0;                        ///< of the epoch [s]
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
   std::uint64_t next_sequence_ = 1;

@@ -48,14 +48,50 @@ public:
                        const std::vector<Vec3>& acceleration, double dt) = 0;
 
   /// Draws overlong structural springs together, positions only (2.1.1, Provot 1995).
-  virtual void limitStrain(ParticleState& state, const SpringTable& springs) = 0;
+  /// Not every solver needs it.
+  virtual void limitStrain(ParticleState& /*state*/, const SpringTable& /*springs*/) {}
 
-  /// What it takes to stay stable at a step of `dt` [s]; to be asked anew after each tear, which
-  /// makes lighter particles. The solver keeps to the answer from then on.
-  virtual Stability checkStability(const ParticleState& state, const SpringTable& springs,
-                                   double dt) = 0;
+  /// What it takes to stay stable at a step of `dt` [s] in air that brakes by `air_rate` [1/s]; to
+  /// be asked anew after each tear, which makes lighter particles. The solver keeps to the answer
+  /// from then on. By default it is stable at any step.
+  virtual Stability checkStability(const ParticleState& /*state*/, const SpringTable& /*springs*/,
+                                   double /*dt*/, double /*air_rate*/)
+  {
+    return {};
+  }
+
+  /// How much of the springs' stiffness a step of `dt` [s] cannot carry: (1/m_a + 1/m_b) k dt^2,
+  /// which nine of ten structural springs do not exceed, so that a few slivers do not count. Well
+  /// above 1 the cloth is softer than its stiffness says. By default 0: as stiff as stated.
+  virtual double stiffnessNumber(const ParticleState& /*state*/, const SpringTable& /*springs*/,
+                                 double /*dt*/) const
+  {
+    return 0.0;
+  }
 };
 
 std::unique_ptr<Solver> makeSolver(const SolverParams& params);
+
+/// Owns a solver. A copy owns a clone.
+class SolverHandle
+{
+public:
+  explicit SolverHandle(const SolverParams& params) : solver_(makeSolver(params)) {}
+  SolverHandle(const SolverHandle& other) : solver_(other.solver_->clone()) {}
+  SolverHandle& operator=(const SolverHandle& other)
+  {
+    solver_ = other.solver_->clone();
+    return *this;
+  }
+  SolverHandle(SolverHandle&&) = default;
+  SolverHandle& operator=(SolverHandle&&) = default;
+  ~SolverHandle() = default;
+
+  Solver* operator->() { return solver_.get(); }
+  const Solver* operator->() const { return solver_.get(); }
+
+private:
+  std::unique_ptr<Solver> solver_;
+};
 
 }  // namespace cloth
