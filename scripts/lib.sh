@@ -88,10 +88,15 @@ use_system_tools()
 use_private_ros()
 {
   local port
-  port=$(python3 -c 'import socket
-s = socket.socket()
-s.bind(("127.0.0.1", 0))
-print(s.getsockname()[1])')
+  # Not of those that the system gives to outgoing connections: one of them could take it first.
+  port=$(python3 -c 'import random, socket
+for port in random.sample(range(12000, 32000), 1000):
+    try:
+        socket.socket().bind(("127.0.0.1", port))
+    except OSError:
+        continue
+    print(port)
+    break')
   unset ROS_IP ROS_NAMESPACE
   export ROS_HOSTNAME=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:$port
   export ROS_HOME=$build_dir/ros_home ROS_LOG_DIR=$build_dir/ros_home/log

@@ -4,17 +4,25 @@
 #include <cloth_tearing/Grasp.h>
 #include <cloth_tearing/Release.h>
 #include <cloth_tearing/SimulationStatus.h>
+#include <cloth_tearing/Step.h>
 #include <cloth_tearing/TearEvents.h>
 #include <cloth_tearing/ThrowSphere.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <std_srvs/Trigger.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace cloth_tearing
 {
@@ -23,9 +31,13 @@ namespace
 
 /// How long the scene waits for the node, on the wall clock [s].
 constexpr double PATIENCE = 120.0;
+/// The cloth is stepped this far at a time [s]; what the scene does falls between two of these.
+constexpr double BEAT = 1.0 / 30.0;
+/// Radius of the gripper in mean spacings of the particles [-].
+constexpr double GRIPPER_SPACINGS = 1.5;
 
 const std::array<const char*, 4> KIND_NAMES = { "basic", "weak_point", "one_point", "released" };
-const std::array<const char*, 4> CAUSE_NAMES = { "nobody", "grasp", "sphere", "thrown sphere" };
+const std::array<const char*, 4> CAUSE_NAMES = { "", "grasp", "sphere", "thrown sphere" };
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& x)
 {
@@ -36,40 +48,80 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& x)
   return point;
 }
 
+/// Who tore it, for people.
+std::string causeOf(const TearEvent& event)
+{
+  return event.cause == TearEvent::NO_CAUSE ? "by itself"
+                                            : std::string("by ") + CAUSE_NAMES.at(event.cause) +
+                                                  " " + std::to_string(event.cause_id);
+}
+
+Eigen::Vector3d particleOf(const ClothSurface& surface, std::size_t i)
+{
+  return Eigen::Vector3d(surface.origin.x + surface.positions[3 * i],
+                         surface.origin.y + surface.positions[3 * i + 1],
+                         surface.origin.z + surface.positions[3 * i + 2]);
+}
+
+/// Mean length of the triangles' sides [m].
+double meanSpacing(const ClothSurface& surface)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+  {
+    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    sum +=
+        (particleOf(surface, surface.triangles[i]) - particleOf(surface, surface.triangles[next]))
+            .norm();
+  }
+  return sum / static_cast<double>(surface.triangles.size());
+}
+
 /// Grasps a cloth that hangs in x-z, drags it until it tears, and throws a ball through the rest.
 /// Places are fractions of the cloth's own width and height, so that any model can hang there.
+/// The node is paused and the scene steps it, at the pace of the wall clock: so each action comes
+/// at its own step, and it tears alike every time, however fast the machine is.
 class DemoScene
 {
 public:
   explicit DemoScene(ros::NodeHandle nh) : nh_(std::move(nh))
   {
-    events_ = nh_.subscribe("tear_events", 1000, &DemoScene::onTears, this);
-    status_ = nh_.subscribe("status", 10, &DemoScene::onStatus, this);
-    surface_ = nh_.subscribe("surface", 1, &DemoScene::onSurface, this);
+    events_subscriber_ = nh_.subscribe("tear_events", 1000, &DemoScene::onTears, this);
+    status_subscriber_ = nh_.subscribe("status", 10, &DemoScene::onStatus, this);
+    surface_subscriber_ = nh_.subscribe("surface", 1, &DemoScene::onSurface, this);
   }
 
   void play()
   {
-    waitUntil([this] { return time_ >= 0.0 && size_.x() > 0.0; }, "the node");
-    surface_.shutdown();
-    waitFor(ros::NodeHandle("~").param("settle_time", 1.5));
+    waitUntil([this] { return time_step_ > 0.0 && surface_; }, "the node");
+    measure();
+    waitWall(ros::NodeHandle("~").param("start_pause", 0.0), "the start");
+    advance(1.5);
 
     say("the gripper takes hold and pulls");
     const std::uint64_t grasp = takeHold(at(0.82, 0.55, 0.0), 0.04 * size_.z());
     drag(grasp, at(0.95, 0.625, 0.75), 0.35);
-    waitFor(2.7);
+    advance(2.7);
     drag(grasp, at(0.75, 0.8, 0.38), 0.35);
-    waitFor(1.8);
+    advance(1.8);
 
     say("a ball goes through");
     throwBall(at(0.27, 0.32, 1.3), 12.0, 0.05 * size_.z());
-    waitFor(1.7);
+    advance(1.7);
     std::printf("scene: ready for the picture\n");
-    waitWall(ros::NodeHandle("~").param("picture_pause", 3.0));
+    waitWall(ros::NodeHandle("~").param("picture_pause", 3.0), "the picture");
 
     say("the gripper lets go");
     release(grasp);
-    waitFor(2.0);
+    advance(2.0);
+    waitUntil([this] { return tearsHeard() >= tears_; }, "word of each tear");
+  }
+
+  /// Lets the cloth go on by itself.
+  void resume()
+  {
+    std_srvs::Trigger trigger;
+    call("resume", trigger);
   }
 
   void summarise() const
@@ -87,29 +139,32 @@ private:
     {
       ++kinds_.at(event.kind);
       std::printf(
-          "tear %llu %s at (%.2f, %.2f, %.2f) m, strain %.2f over %.2f, %.2f N, by %s %llu,"
+          "tear %llu %s at (%.2f, %.2f, %.2f) m, strain %.2f over %.2f, %.2f N, %s,"
           " pieces %u\n",
           static_cast<unsigned long long>(event.sequence), KIND_NAMES.at(event.kind),
           event.position.x, event.position.y, event.position.z, event.strain, event.threshold,
-          event.tension, CAUSE_NAMES.at(event.cause),
-          static_cast<unsigned long long>(event.cause_id), event.pieces);
+          event.tension, causeOf(event).c_str(), event.pieces);
     }
   }
 
-  void onStatus(const SimulationStatus& status) { time_ = status.time; }
+  void onStatus(const SimulationStatus& status) { time_step_ = status.time_step; }
 
-  void onSurface(const ClothSurface& surface)
+  void onSurface(const ClothSurfaceConstPtr& surface) { surface_ = surface; }
+
+  /// Reads the frame, the corner and the size off the untorn cloth.
+  void measure()
   {
     Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i + 2 < surface.positions.size(); i += 3)
+    for (std::size_t i = 0; i < surface_->positions.size() / 3; ++i)
     {
-      box.extend(Eigen::Vector3d(surface.positions[i], surface.positions[i + 1],
-                                 surface.positions[i + 2]));
+      box.extend(particleOf(*surface_, i));
     }
-    frame_id_ = surface.header.frame_id;
+    frame_id_ = surface_->header.frame_id;
     corner_ = Eigen::Vector3d(box.min().x(), box.center().y(), box.max().z());
     size_ = box.sizes();
   }
+
+  unsigned long long tearsHeard() const { return kinds_[0] + kinds_[1] + kinds_[2] + kinds_[3]; }
 
   /// A place from the upper left corner: right and down in fractions of the cloth's width and
   /// height, towards the viewer in fractions of its height.
@@ -131,14 +186,47 @@ private:
     }
   }
 
-  std::uint64_t takeHold(const Eigen::Vector3d& point, double radius)
+  /// Takes hold of the particle that is nearest to `place` in x and z, on the viewer's side, and of
+  /// those within `radius` [m] or a little more if the mesh is coarse.
+  std::uint64_t takeHold(const Eigen::Vector3d& place, double radius)
   {
+    waitUntil([this] { return surface_->step == step_; }, "the surface");
+    const double spacing = meanSpacing(*surface_);
     Grasp grasp;
     grasp.request.header.frame_id = frame_id_;
-    grasp.request.point = toPoint(point);
-    grasp.request.radius = radius;
+    grasp.request.point = toPoint(graspablePoint(place, spacing));
+    grasp.request.radius = std::max(radius, GRIPPER_SPACINGS * spacing);
     call("grasp", grasp);
     return grasp.response.grasp_id;
+  }
+
+  /// The free particle nearest to `place` as the viewer sees it: of those that lie `spacing` [m]
+  /// further or less, the one in front.
+  Eigen::Vector3d graspablePoint(const Eigen::Vector3d& place, double spacing) const
+  {
+    std::set<std::uint32_t> held;
+    for (const HeldParticle& particle : surface_->held)
+    {
+      held.insert(particle.particle);
+    }
+    std::vector<std::pair<double, Eigen::Vector3d>> free;  // with their distance in x-z
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < surface_->positions.size() / 3; ++i)
+    {
+      if (held.count(i) == 0)
+      {
+        const Eigen::Vector3d x = particleOf(*surface_, i);
+        const double distance = std::hypot(x.x() - place.x(), x.z() - place.z());
+        nearest = std::min(nearest, distance);
+        free.emplace_back(distance, x);
+      }
+    }
+    Eigen::Vector3d front = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    for (const auto& [distance, x] : free)
+    {
+      front = distance <= nearest + spacing && x.y() < front.y() ? x : front;
+    }
+    return front;
   }
 
   void drag(std::uint64_t grasp, const Eigen::Vector3d& target, double speed)
@@ -181,31 +269,43 @@ private:
       {
         throw std::runtime_error("waited in vain for " + what);
       }
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.005));
     }
   }
 
-  /// Lets `seconds` of simulated time pass.
-  void waitFor(double seconds)
+  /// Steps the cloth, beat by beat, for `seconds` of simulated time or a fraction of a beat more.
+  void advance(double seconds)
   {
-    const double until = time_ + seconds;
-    waitUntil([&] { return time_ >= until; }, "the simulation to go on");
+    const int beats = static_cast<int>(std::ceil(seconds / BEAT - 1e-9));
+    for (int i = 0; i < beats; ++i)
+    {
+      const ros::WallTime until = ros::WallTime::now() + ros::WallDuration(BEAT);
+      Step step;
+      step.request.steps = static_cast<std::uint32_t>(std::lround(BEAT / time_step_));
+      call("step", step);
+      step_ = step.response.step;
+      tears_ += step.response.tears;
+      waitUntil([&] { return ros::WallTime::now() >= until; }, "the next beat");
+    }
   }
 
-  void waitWall(double seconds)
+  void waitWall(double seconds, const std::string& what)
   {
     const ros::WallTime until = ros::WallTime::now() + ros::WallDuration(seconds);
-    waitUntil([&] { return ros::WallTime::now() >= until; }, "the picture");
+    waitUntil([&] { return ros::WallTime::now() >= until; }, what);
   }
 
   static void say(const char* what) { std::printf("scene: %s\n", what); }
 
   ros::NodeHandle nh_;
-  ros::Subscriber events_;
-  ros::Subscriber status_;
-  ros::Subscriber surface_;
-  std::array<unsigned long long, 4> kinds_{};
-  double time_ = -1.0;  ///< simulated [s]; negative until the node was heard
+  ros::Subscriber events_subscriber_;
+  ros::Subscriber status_subscriber_;
+  ros::Subscriber surface_subscriber_;
+  ClothSurfaceConstPtr surface_;               ///< the newest; null until the node was heard
+  std::array<unsigned long long, 4> kinds_{};  ///< tears heard of, by kind
+  unsigned long long tears_ = 0;               ///< that the steps made
+  std::uint64_t step_ = 0;                     ///< the last one done
+  double time_step_ = 0.0;                     ///< [s]; 0 until the node was heard
   std::string frame_id_;
   Eigen::Vector3d corner_ = Eigen::Vector3d::Zero();  ///< upper left of the untorn cloth [m]
   Eigen::Vector3d size_ = Eigen::Vector3d::Zero();    ///< [m]
@@ -233,6 +333,7 @@ int main(int argc, char** argv)
   scene.summarise();
   if (!pnh.param("exit_when_done", false))
   {
+    scene.resume();
     ros::spin();  // the tears that come from now on are printed too
   }
   return scene.torn() ? 0 : 1;
