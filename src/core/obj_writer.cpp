@@ -1,0 +1,40 @@
+// OBJ text of a surface.
+#include "cloth_tearing/core/obj_writer.h"
+
+#include <limits>
+#include <locale>
+
+namespace cloth
+{
+
+void writeObj(std::ostream& out, const Surface& surface)
+{
+  const std::locale before = out.imbue(std::locale::classic());
+  const std::streamsize precision = out.precision(std::numeric_limits<Real>::max_digits10);
+  for (const Vec3& x : surface.position)
+  {
+    out << "v " << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
+  }
+  out.precision(std::numeric_limits<double>::max_digits10);
+  for (const SurfaceTriangle& t : surface.triangles)
+  {
+    for (const Vec2d& uv : t.uv)
+    {
+      out << "vt " << uv.x() << ' ' << uv.y() << '\n';
+    }
+  }
+  std::size_t corner = 0;
+  for (const SurfaceTriangle& t : surface.triangles)
+  {
+    out << 'f';
+    for (int p : t.particles)
+    {
+      out << ' ' << p + 1 << '/' << ++corner;
+    }
+    out << '\n';
+  }
+  out.precision(precision);
+  out.imbue(before);
+}
+
+}  // namespace cloth

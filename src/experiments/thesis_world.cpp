@@ -1,0 +1,106 @@
+// Chapter 4's parameters, sheet and settling.
+#include "cloth_tearing/experiments/thesis_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace cloth
+{
+
+SimulationParams thesisParams(SolverKind solver)
+{
+  SimulationParams params;
+  params.solver.kind = solver;
+  params.solver.time_step = 0.001;
+  params.solver.max_strain = 0.1;
+  params.material.areal_density = 0.1;
+  params.material.stiffness = 150.0;
+  params.material.bend_shear_stiffness = 30.0;
+  params.material.damping = 0.02;
+  params.environment.gravity = Vec3d(0.0, 0.0, -9.8);
+  params.environment.air_friction = 0.4;
+  params.environment.wind_drag = 0.0;
+  params.contact.friction = 0.0;
+  params.contact.thickness = 0.01;
+  params.max_grasp_distance = 0.5;
+
+  TearRules& rules = params.tearing;
+  rules.tear_radius = 0.3;
+  rules.tear_strain = 0.145;
+  rules.weak_tear_strain = 0.126;
+  rules.one_point_tear_strain = 0.126;
+  rules.crack_length = 0.18;
+  rules.hem_factor = 2.0;
+  rules.hem_width = 0.6;
+  if (solver == SolverKind::FORCE_SPRINGS)
+  {
+    rules.tear_radius = 0.0;
+    rules.tear_strain = 0.17;
+    rules.weak_tear_strain = 0.12;
+    rules.one_point_tear_strain = 0.12;
+    rules.crack_length = 0.0;
+    rules.hem_factor = 1.0;
+  }
+  return params;
+}
+
+RectangleParams thesisSheet(int resolution, RectanglePattern pattern, std::uint64_t seed)
+{
+  RectangleParams sheet;
+  sheet.width = 6.0;
+  sheet.height = 8.0;
+  sheet.columns = resolution;
+  sheet.rows = resolution;
+  sheet.pattern = pattern;
+  sheet.seed = seed;
+  return sheet;
+}
+
+Simulation hungCloth(const RectangleParams& sheet, const SimulationParams& params, double seconds)
+{
+  ClothModel model = rectangle(sheet);
+  std::vector<int> upper_edge;
+  for (std::size_t i = 0; i < model.positions.size(); ++i)
+  {
+    Vec3d& x = model.positions[i];
+    if (x.y() == 0.0)
+    {
+      upper_edge.push_back(static_cast<int>(i));
+    }
+    x = Vec3d(x.x(), -x.z(), x.y());
+  }
+  Simulation simulation(model, upper_edge, params);
+  TearRules off = params.tearing;
+  off.enabled = false;
+  simulation.setTearRules(off);
+  const auto steps = std::lround(seconds / params.solver.time_step);
+  for (long i = 0; i < steps; ++i)
+  {
+    stepOrThrow(simulation);
+  }
+  simulation.setTearRules(params.tearing);
+  return simulation;
+}
+
+double hangingHeight(const Simulation& simulation)
+{
+  double lowest = 0.0;
+  for (const Vec3& x : simulation.cloth().state.position)
+  {
+    lowest = std::min(lowest, static_cast<double>(x.z()));
+  }
+  return -lowest;
+}
+
+StepReport stepOrThrow(Simulation& simulation)
+{
+  StepReport report = simulation.step();
+  if (!report.fault.empty())
+  {
+    throw std::runtime_error(report.fault);
+  }
+  return report;
+}
+
+}  // namespace cloth
