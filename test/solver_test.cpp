@@ -289,6 +289,25 @@ TEST(XpbdSoftness, IsNoMatterOfAFewSlivers)
               solver->stiffnessNumber(regular.state, regular.springs, 0.001), 0.05);
 }
 
+TEST(Hem, IsWhatLiesWithinItsWidthOfAPin)
+{
+  const ClothModel model = sheet(1.0, 1.0, 20, 20, RectanglePattern::IRREGULAR);
+  const std::vector<int> pinned = { 0, 57, 58, 203, 399 };
+  for (double width : { 1e-6, 0.03, 0.1, 0.4, 5.0 })
+  {
+    const Cloth cloth = makeCloth(model, pinned, cotton(), RestShapeSource::IMPORTED, width);
+    for (std::size_t i = 0; i < model.positions.size(); ++i)
+    {
+      bool near = false;
+      for (int pin : pinned)
+      {
+        near = near || (model.positions[i] - model.positions[pin]).norm() <= width;
+      }
+      EXPECT_EQ(cloth.damage.hem[i] != 0, near) << "particle " << i << ", width " << width;
+    }
+  }
+}
+
 TEST(Time, DoesNotDrift)
 {
   Simulation simulation(sheet(1.0, 1.0, 3, 3), {}, vacuum());

@@ -2,6 +2,9 @@
 #include "cloth_tearing/core/cloth.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/pieces.h"
@@ -11,6 +14,56 @@ namespace cloth
 {
 namespace
 {
+
+/// Points by the cubes of space they lie in: who is near is in the same cube or a next one.
+class PointGrid
+{
+public:
+  explicit PointGrid(double width) : width_(width) {}
+
+  void add(const Vec3d& point) { cubes_[cubeOf(point)].push_back(point); }
+
+  /// Whether a point lies within the width of `place`.
+  bool isNear(const Vec3d& place) const
+  {
+    const Cube middle = cubeOf(place);
+    for (double dx : { 0.0, -1.0, 1.0 })
+    {
+      for (double dy : { 0.0, -1.0, 1.0 })
+      {
+        for (double dz : { 0.0, -1.0, 1.0 })
+        {
+          if (isNear(place, { middle[0] + dx, middle[1] + dy, middle[2] + dz }))
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+private:
+  using Cube = std::array<double, 3>;  ///< whole numbers, however large
+
+  Cube cubeOf(const Vec3d& place) const
+  {
+    return { std::floor(place.x() / width_), std::floor(place.y() / width_),
+             std::floor(place.z() / width_) };
+  }
+
+  bool isNear(const Vec3d& place, const Cube& cube) const
+  {
+    const auto found = cubes_.find(cube);
+    return found != cubes_.end() &&
+           std::any_of(found->second.begin(), found->second.end(),
+                       [&](const Vec3d& point)
+                       { return (point - place).squaredNorm() <= width_ * width_; });
+  }
+
+  double width_;
+  std::map<Cube, std::vector<Vec3d>> cubes_;
+};
 
 /// Marks what lies within `width` of a pin. A garment folds in space, so distance is measured
 /// between particles of the model as it hangs; it is small beside the folds.
@@ -22,16 +75,14 @@ std::vector<char> hemParticles(const std::vector<Vec3d>& positions, const std::v
   {
     return hem;
   }
+  PointGrid pins(width);
+  for (int pin : pinned)
+  {
+    pins.add(positions[pin]);
+  }
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    for (int pin : pinned)
-    {
-      if ((positions[i] - positions[pin]).squaredNorm() <= width * width)
-      {
-        hem[i] = 1;
-        break;
-      }
-    }
+    hem[i] = pins.isNear(positions[i]) ? 1 : 0;
   }
   return hem;
 }
