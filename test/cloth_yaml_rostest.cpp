@@ -1,4 +1,5 @@
-// config/cloth.yaml says what is compiled in: every parameter, with its default.
+// config/cloth.yaml says what is compiled in: every parameter, with its default. config/thesis.yaml
+// over it is the world of chapter 4.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
@@ -9,11 +10,16 @@
 namespace
 {
 
-XmlRpc::XmlRpcValue shippedTree()
+XmlRpc::XmlRpcValue treeAt(const std::string& name)
 {
   XmlRpc::XmlRpcValue tree;
-  EXPECT_TRUE(ros::param::get("/cloth_yaml", tree));
+  EXPECT_TRUE(ros::param::get(name, tree));
   return tree;
+}
+
+XmlRpc::XmlRpcValue shippedTree()
+{
+  return treeAt("/cloth_yaml");
 }
 
 void listLeaves(const std::string& prefix, const XmlRpc::XmlRpcValue& tree,
@@ -146,6 +152,41 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.contact.bounds_max, compiled.contact.bounds_max);
   EXPECT_EQ(shipped.contact.max_sphere_speed, compiled.contact.max_sphere_speed);
   EXPECT_EQ(shipped.contact.sphere_timeout, compiled.contact.sphere_timeout);
+}
+
+TEST(ThesisYaml, IsTheClothOfChapter4)
+{
+  const cloth_tearing::LoadedParams loaded = cloth_tearing::loadParams(treeAt("/thesis_yaml"));
+  for (const std::string& problem : loaded.problems)
+  {
+    ADD_FAILURE() << problem;
+  }
+
+  const cloth::RectangleParams& sheet = loaded.params.rectangle;
+  EXPECT_EQ(sheet.width, 6.0);
+  EXPECT_EQ(sheet.height, 8.0);
+  EXPECT_EQ(sheet.columns, 30);
+  EXPECT_EQ(sheet.rows, 30);
+  EXPECT_EQ(loaded.params.pins.edges, std::vector<std::string>{ "top" });
+
+  const cloth::SimulationParams& physics = loaded.params.simulation;
+  EXPECT_EQ(physics.solver.time_step, 0.001);
+  EXPECT_EQ(physics.material.areal_density, 0.1);
+  EXPECT_EQ(physics.material.stiffness, 150.0);
+  EXPECT_EQ(physics.material.bend_shear_stiffness, 30.0);
+  EXPECT_EQ(physics.material.damping, 0.02);
+  EXPECT_EQ(physics.environment.gravity, cloth::Vec3d(0.0, 0.0, -9.8));
+  EXPECT_EQ(physics.environment.air_friction, 0.4);
+  EXPECT_EQ(physics.environment.wind_drag, 0.0);
+  EXPECT_EQ(physics.contact.friction, 0.0);
+  EXPECT_EQ(physics.contact.thickness, 0.01);
+  EXPECT_EQ(physics.tearing.tear_strain, 0.145);
+  EXPECT_EQ(physics.tearing.weak_tear_strain, 0.126);
+  EXPECT_EQ(physics.tearing.onePointThreshold(), 0.126);
+  EXPECT_EQ(physics.tearing.tear_radius, 0.3);
+  EXPECT_EQ(physics.tearing.crack_length, 0.18);
+  EXPECT_EQ(physics.tearing.hem_factor, 2.0);
+  EXPECT_EQ(physics.tearing.hem_width, 0.6);
 }
 
 int main(int argc, char** argv)
