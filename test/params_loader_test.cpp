@@ -180,6 +180,8 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "pins", "regions", list({ list({ 0, 0, 0, 0 }) }), "pins: pin region radius [m] is 0" },
     { "tearing", "weak_tear_strain", 99.0, "tearing/weak_tear_strain" },
     { "contact", "friction", -0.1, "contact/friction" },
+    { "contact", "bounds_min", list({ 0, 60, 0 }),
+      "contact/bounds_min [m].y is 60, must be less than bounds_max.y = 50" },
     { "markers", "checks", 0, "markers/checks is 0" },
     { "markers", "strain_range", list({ 1, 0 }), "must ascend" },
     { "markers", "plain_color", list({ 0, 2, 0 }), "markers/plain_color[1] is 2" },

@@ -374,9 +374,15 @@ std::vector<std::string> problems(const ContactParams& params)
   check(found, "floor_friction [-]", params.floor_friction, Range::between(0.0, 10.0));
   check(found, "bounds_min [m]", params.bounds_min, MAX_COORDINATE);
   check(found, "bounds_max [m]", params.bounds_max, MAX_COORDINATE);
-  if (!(params.bounds_min.array() < params.bounds_max.array()).all())
+  for (int i = 0; i < 3; ++i)
   {
-    found.push_back("bounds_min [m] must be less than bounds_max on every axis");
+    if (!(params.bounds_min[i] < params.bounds_max[i]))
+    {
+      const std::string axis = { "xyz"[i] };
+      found.push_back("bounds_min [m]." + axis + " is " + text(params.bounds_min[i]) +
+                      ", must be less than bounds_max." + axis + " = " +
+                      text(params.bounds_max[i]));
+    }
   }
   check(found, "max_sphere_speed [m/s]", params.max_sphere_speed, Range::aboveUpTo(0.0, 1000.0));
   check(found, "sphere_timeout [s]", params.sphere_timeout, Range::between(0.0, 1e6));
