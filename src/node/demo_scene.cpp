@@ -221,6 +221,10 @@ private:
         free.emplace_back(distance, x);
       }
     }
+    if (free.empty())
+    {
+      throw std::runtime_error("every particle is pinned, there is nothing to grasp");
+    }
     Eigen::Vector3d front = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
     for (const auto& [distance, x] : free)
     {
