@@ -55,6 +55,35 @@ int heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
   return held;
 }
 
+/// A held particle that was doubled stays held on the side with more of the gripper's particles;
+/// if there is none such, on the side that the pull does not take away.
+void keepHeld(Cloth& cloth, std::vector<Grasp>& grasps, const Edit& edit, SpringId stretched)
+{
+  const ParticleId p = edit.particles.front().parents[0];
+  const ParticleId copy = edit.particles.front().id;
+  const Attachment attachment = cloth.attachments[p.index];
+  if (attachment.kind != Attachment::Kind::GRASP)
+  {
+    return;
+  }
+  const int here = heldNeighbours(cloth, p, attachment.grasp);
+  const int there = heldNeighbours(cloth, copy, attachment.grasp);
+  const bool pulled_here = cloth.mesh.spring(stretched).joins(p);
+  if (there < here || (there == here && !pulled_here))
+  {
+    return;
+  }
+  cloth.attach(p, {});
+  cloth.attach(copy, attachment);
+  for (Grasp& grasp : grasps)
+  {
+    for (Grasp::Held& held : grasp.held)
+    {
+      held.particle = held.particle == p ? copy : held.particle;
+    }
+  }
+}
+
 /// A tear ends at `p` now and may run on, unless it is pinned, or hangs by one point there.
 void weaken(Cloth& cloth, ParticleId p)
 {
@@ -179,7 +208,6 @@ std::vector<TearEvent> Tearing::tear(Cloth& cloth, std::vector<Grasp>& grasps,
   }
   ++pass_;
   touched_.resize(cloth.mesh.particleCount(), 0);
-  grasps_ = &grasps;
   for (const TearReading& reading : found_)
   {
     const bool full = static_cast<int>(events.size()) >= rules_.max_tears_per_step;
@@ -191,12 +219,11 @@ std::vector<TearEvent> Tearing::tear(Cloth& cloth, std::vector<Grasp>& grasps,
     TearEvent event;
     event.spring = reading.spring;
     event.tension = tension(cloth, reading.spring);
-    if (tearSpring(cloth, reading.spring, blocked, event))
+    if (tearSpring(cloth, grasps, reading.spring, blocked, event))
     {
       events.push_back(std::move(event));
     }
   }
-  grasps_ = nullptr;
   found_.clear();
   return events;
 }
@@ -207,7 +234,8 @@ bool Tearing::touched(const Cloth& cloth, SpringId s) const
   return touched_[ends[0].index] == pass_ || touched_[ends[1].index] == pass_;
 }
 
-bool Tearing::tearSpring(Cloth& cloth, SpringId s, const Blocked& blocked, TearEvent& event)
+bool Tearing::tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s,
+                         const Blocked& blocked, TearEvent& event)
 {
   const double own = cloth.strain(s);
   const std::vector<Option> ways = options(cloth, s);
@@ -222,20 +250,20 @@ bool Tearing::tearSpring(Cloth& cloth, SpringId s, const Blocked& blocked, TearE
     event.threshold = way.threshold;
     if (way.kind == TearKind::ONE_POINT)
     {
-      tearOnePoint(cloth, s, way.at, blocked, event);
+      tearOnePoint(cloth, grasps, s, way.at, blocked, event);
       return true;
     }
     if (const auto path = findTearPath(cloth, way.at, s))
     {
-      tearAlong(cloth, way.at, *path, event);
+      tearAlong(cloth, grasps, way.at, *path, event);
       return true;
     }
     held = held || resistanceAt(cloth, way.at, s) > 0.0;
   }
-  return held && tearSound(cloth, s, event);
+  return held && tearSound(cloth, grasps, s, event);
 }
 
-bool Tearing::tearSound(Cloth& cloth, SpringId s, TearEvent& event)
+bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, TearEvent& event)
 {
   event.strain = patch_.read(cloth, s, rules_.tear_radius);
   event.threshold = hemFactor(cloth, s) * rules_.tear_strain;
@@ -263,7 +291,7 @@ bool Tearing::tearSound(Cloth& cloth, SpringId s, TearEvent& event)
   }
   if (best)
   {
-    tearAlong(cloth, at, *best, event);
+    tearAlong(cloth, grasps, at, *best, event);
   }
   else
   {
@@ -335,7 +363,8 @@ void Tearing::tearAcross(Cloth& cloth, SpringId s, TearEvent& event)
   conclude(cloth, edit, event);
 }
 
-void Tearing::tearAlong(Cloth& cloth, ParticleId p, const TearPath& path, TearEvent& event)
+void Tearing::tearAlong(Cloth& cloth, std::vector<Grasp>& grasps, ParticleId p,
+                        const TearPath& path, TearEvent& event)
 {
   std::vector<ParticleId> far_ends;
   for (SpringId s : path.springs)
@@ -356,12 +385,12 @@ void Tearing::tearAlong(Cloth& cloth, ParticleId p, const TearPath& path, TearEv
   {
     weaken(cloth, end);
   }
-  keepHeld(cloth, edit, event.spring);
+  keepHeld(cloth, grasps, edit, event.spring);
   conclude(cloth, edit, event);
 }
 
-void Tearing::tearOnePoint(Cloth& cloth, SpringId s, ParticleId p, const Blocked& blocked,
-                           TearEvent& event)
+void Tearing::tearOnePoint(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, ParticleId p,
+                           const Blocked& blocked, TearEvent& event)
 {
   const TriangleId pulled = cloth.mesh.spring(s).triangles[0];
   event.kind = TearKind::ONE_POINT;
@@ -371,7 +400,7 @@ void Tearing::tearOnePoint(Cloth& cloth, SpringId s, ParticleId p, const Blocked
   const Edit edit = cloth.mesh.detachFan(p, pulled);
   cloth.follow(edit);
   cloth.damage.weak[p.index] = 0;
-  keepHeld(cloth, edit, s);
+  keepHeld(cloth, grasps, edit, s);
   const ParticleId copy = edit.particles.front().id;
   relieve(cloth, s, copy, blocked);
   if (const auto loose = pieces_.parted(cloth.mesh, p, copy))
@@ -417,35 +446,6 @@ void Tearing::relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& 
   if (!blocked(place))
   {
     cloth.state.position[copy.index] = place;
-  }
-}
-
-/// A held particle that was doubled stays held on the side with more of the gripper's particles;
-/// if there is none such, on the side that the pull does not take away.
-void Tearing::keepHeld(Cloth& cloth, const Edit& edit, SpringId stretched)
-{
-  const ParticleId p = edit.particles.front().parents[0];
-  const ParticleId copy = edit.particles.front().id;
-  const Attachment attachment = cloth.attachments[p.index];
-  if (attachment.kind != Attachment::Kind::GRASP)
-  {
-    return;
-  }
-  const int here = heldNeighbours(cloth, p, attachment.grasp);
-  const int there = heldNeighbours(cloth, copy, attachment.grasp);
-  const bool pulled_here = cloth.mesh.spring(stretched).joins(p);
-  if (there < here || (there == here && !pulled_here))
-  {
-    return;
-  }
-  cloth.attach(p, {});
-  cloth.attach(copy, attachment);
-  for (Grasp& grasp : *grasps_)
-  {
-    for (Grasp::Held& held : grasp.held)
-    {
-      held.particle = held.particle == p ? copy : held.particle;
-    }
   }
 }
 

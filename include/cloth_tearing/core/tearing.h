@@ -67,17 +67,18 @@ private:
   TearReading read(const Cloth& cloth, SpringId s, double own);
 
   bool touched(const Cloth& cloth, SpringId s) const;
-  bool tearSpring(Cloth& cloth, SpringId s, const Blocked& blocked, TearEvent& event);
-  bool tearSound(Cloth& cloth, SpringId s, TearEvent& event);
+  bool tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, const Blocked& blocked,
+                  TearEvent& event);
+  bool tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, TearEvent& event);
   void tearAcross(Cloth& cloth, SpringId s, TearEvent& event);
-  void tearAlong(Cloth& cloth, ParticleId p, const TearPath& path, TearEvent& event);
-  void tearOnePoint(Cloth& cloth, SpringId s, ParticleId p, const Blocked& blocked,
-                    TearEvent& event);
+  void tearAlong(Cloth& cloth, std::vector<Grasp>& grasps, ParticleId p, const TearPath& path,
+                 TearEvent& event);
+  void tearOnePoint(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, ParticleId p,
+                    const Blocked& blocked, TearEvent& event);
   void release(Cloth& cloth, SpringId s, TearEvent& event);
 
   bool canSplit(const Cloth& cloth, SpringId s) const;
   void relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const;
-  void keepHeld(Cloth& cloth, const Edit& edit, SpringId stretched);
   void conclude(Cloth& cloth, const Edit& edit, TearEvent& event);
 
   TearRules rules_;
@@ -86,7 +87,6 @@ private:
   std::vector<TearReading> found_;
   std::vector<unsigned> touched_;  ///< by particle: the number of the pass that touched it last
   unsigned pass_ = 0;
-  std::vector<Grasp>* grasps_ = nullptr;  ///< those of tear() while it runs
 };
 
 }  // namespace cloth
