@@ -204,9 +204,9 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
                const Contact& contact, Real push, const ContactParams& params, Real dt)
 {
   const Real lightest = lightestCorner(state, triangle);
-  if (!(lightest > 0))
+  if (!(lightest > 0) && !(sphere.mass > 0.0))
   {
-    return 0;
+    return 0;  // neither of them gives way
   }
   const auto& p = triangle.particles;
   const Real sphere_inverse_mass =
