@@ -1,8 +1,9 @@
-// Connectivity and its three edits.
+// Connectivity and its edits.
 #include "cloth_tearing/core/mesh.h"
 
 #include <algorithm>
-#include <tuple>
+
+#include "cloth_tearing/core/mesh_sides.h"
 
 namespace cloth
 {
@@ -16,71 +17,6 @@ int next(int k)
 int previous(int k)
 {
   return (k + 2) % 3;
-}
-
-std::string name(ParticleId p)
-{
-  return "particle " + std::to_string(p.index);
-}
-std::string name(SpringId s)
-{
-  return "spring " + std::to_string(s.index);
-}
-std::string name(TriangleId t)
-{
-  return "triangle " + std::to_string(t.index);
-}
-
-/// A side of a triangle as an undirected edge, ordered so that equal edges come together.
-struct Side
-{
-  int low;
-  int high;
-  int triangle;
-  int side;
-  bool reversed;  ///< the triangle runs from high to low
-
-  bool sameEdge(const Side& o) const { return low == o.low && high == o.high; }
-  friend bool operator<(const Side& a, const Side& b)
-  {
-    return std::tie(a.low, a.high, a.triangle, a.side) <
-           std::tie(b.low, b.high, b.triangle, b.side);
-  }
-};
-
-std::vector<Side> sortedSides(const std::vector<Triangle>& triangles)
-{
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const int from = triangles[t].particles[k].index;
-      const int to = triangles[t].particles[next(k)].index;
-      sides.push_back(
-          { std::min(from, to), std::max(from, to), static_cast<int>(t), k, from > to });
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
-
-/// Why the one or two `sides` from `first` to `last` cannot be one spring; empty if they can.
-std::string edgeProblem(const Side* first, const Side* last)
-{
-  const std::string edge = "the edge between particles " + std::to_string(first->low) + " and " +
-                           std::to_string(first->high);
-  if (last - first > 2)
-  {
-    return edge + " has " + std::to_string(last - first) + " triangles, at most 2 can be joined";
-  }
-  if (last - first == 2 && first[0].reversed == first[1].reversed)
-  {
-    return edge + " joins triangles " + std::to_string(first[0].triangle) + " and " +
-           std::to_string(first[1].triangle) + ", which are wound against each other";
-  }
-  return {};
 }
 
 void checkTriangles(int particle_count, const std::vector<ModelTriangle>& triangles)
@@ -160,27 +96,21 @@ Mesh::Mesh(int particle_count, const std::vector<ModelTriangle>& triangles)
 
 void Mesh::buildSprings()
 {
-  const std::vector<Side> sides = sortedSides(triangles_);
   std::vector<int> twin(3 * triangles_.size(), -1);  // by corner: the other side of the same edge
-  for (std::size_t i = 0; i < sides.size();)
-  {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].sameEdge(sides[i]))
-    {
-      ++end;
-    }
-    const std::string problem = edgeProblem(&sides[i], sides.data() + end);
-    if (!problem.empty())
-    {
-      throw TopologyError(problem);
-    }
-    if (end - i == 2)
-    {
-      twin[3 * sides[i].triangle + sides[i].side] = 3 * sides[i + 1].triangle + sides[i + 1].side;
-      twin[3 * sides[i + 1].triangle + sides[i + 1].side] = 3 * sides[i].triangle + sides[i].side;
-    }
-    i = end;
-  }
+  forEachEdge(triangles_,
+              [&](const Side* first, const Side* last)
+              {
+                const std::string problem = edgeProblem(first, last);
+                if (!problem.empty())
+                {
+                  throw TopologyError(problem);
+                }
+                if (last - first == 2)
+                {
+                  twin[first[0].corner()] = first[1].corner();
+                  twin[first[1].corner()] = first[0].corner();
+                }
+              });
 
   for (int c = 0; c < 3 * triangleCount(); ++c)
   {
@@ -551,130 +481,6 @@ void Mesh::moveTriangles(const std::vector<TriangleId>& moved, ParticleId from, 
   }
   *from_end = -1;
   *to_end = -1;
-}
-
-namespace
-{
-
-void checkCorners(const Mesh& mesh, std::vector<std::string>& found)
-{
-  for (int i = 0; i < mesh.triangleCount(); ++i)
-  {
-    const TriangleId t{ i };
-    const Triangle& triangle = mesh.triangle(t);
-    for (int k = 0; k < 3; ++k)
-    {
-      const ParticleId p = triangle.particles[k];
-      const SpringId s = triangle.springs[k];
-      if (p.index < 0 || p.index >= mesh.particleCount() || s.index < 0 ||
-          s.index >= mesh.springCount())
-      {
-        found.push_back(name(t) + " names an element that does not exist");
-        return;
-      }
-      if (p == triangle.particles[next(k)])
-      {
-        found.push_back(name(t) + " repeats " + name(p));
-      }
-      const Spring& spring = mesh.spring(s);
-      if (!spring.joins(p) || spring.other(p) != triangle.particles[next(k)])
-      {
-        found.push_back(name(t) + " has " + name(s) + " on a side that it does not join");
-      }
-      if (spring.triangles[0] != t && spring.triangles[1] != t)
-      {
-        found.push_back(name(s) + " does not know " + name(t));
-      }
-      if (!triangle.uv[k].allFinite())
-      {
-        found.push_back(name(t) + " has a texture corner that is not finite");
-      }
-    }
-  }
-}
-
-void checkSprings(const Mesh& mesh, const std::vector<Side>& sides, std::vector<std::string>& found)
-{
-  int edges = 0;
-  for (std::size_t i = 0; i < sides.size();)
-  {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].sameEdge(sides[i]))
-    {
-      ++end;
-    }
-    const std::string problem = edgeProblem(&sides[i], sides.data() + end);
-    if (!problem.empty())
-    {
-      found.push_back(problem);
-    }
-    const SpringId s = mesh.triangle(TriangleId{ sides[i].triangle }).springs[sides[i].side];
-    for (std::size_t j = i; j < end; ++j)
-    {
-      if (mesh.triangle(TriangleId{ sides[j].triangle }).springs[sides[j].side] != s)
-      {
-        found.push_back("one edge has two springs, " + name(s) + " among them");
-      }
-    }
-    if (mesh.spring(s).border() != (end - i == 1))
-    {
-      found.push_back(name(s) + " has " + std::to_string(end - i) +
-                      " triangles and says otherwise");
-    }
-    ++edges;
-    i = end;
-  }
-  if (edges != mesh.springCount())
-  {
-    found.push_back("there are " + std::to_string(mesh.springCount()) + " springs for " +
-                    std::to_string(edges) + " edges");
-  }
-}
-
-}  // namespace
-
-std::vector<std::string> defects(const Mesh& mesh)
-{
-  std::vector<std::string> found;
-  checkCorners(mesh, found);
-  if (!found.empty())
-  {
-    return found;  // what follows relies on sound references
-  }
-  checkSprings(mesh, sortedSides(mesh.triangles_), found);
-
-  std::vector<int> corners(mesh.particleCount(), 0);
-  for (const Triangle& t : mesh.triangles_)
-  {
-    for (ParticleId p : t.particles)
-    {
-      ++corners[p.index];
-    }
-  }
-  for (int i = 0; i < mesh.particleCount(); ++i)
-  {
-    const ParticleId p{ i };
-    int listed = 0;
-    for (int c = mesh.first_corner_[i]; c >= 0 && listed <= corners[i]; c = mesh.next_corner_[c])
-    {
-      if (mesh.triangles_[c / 3].particles[c % 3] != p)
-      {
-        found.push_back(name(p) + " lists a corner of another particle");
-        break;
-      }
-      ++listed;
-    }
-    if (corners[i] == 0)
-    {
-      found.push_back(name(p) + " belongs to no triangle");
-    }
-    if (listed != corners[i])
-    {
-      found.push_back(name(p) + " lists " + std::to_string(listed) + " triangles of " +
-                      std::to_string(corners[i]));
-    }
-  }
-  return found;
 }
 
 }  // namespace cloth
