@@ -11,8 +11,6 @@ namespace cloth
 namespace
 {
 
-constexpr double SETTLING = 6.0;  // [s]
-
 struct Cloths
 {
   int resolution;
@@ -44,8 +42,11 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(Experiments, EndAsInTheThesis)
 {
   const Cloths& cloth = GetParam();
-  const Simulation hung = hungCloth(thesisSheet(cloth.resolution, cloth.pattern, 1),
-                                    thesisParams(cloth.solver), SETTLING);
+  Setting setting;
+  setting.resolution = cloth.resolution;
+  setting.pattern = cloth.pattern;
+  setting.solver = cloth.solver;
+  const Simulation hung = hungCloth(setting);
   for (const BallThrow& thrown : THESIS_THROWS)
   {
     Simulation simulation = hung;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth_tearing/experiments/thesis_world.h"
-
 namespace cloth
 {
 namespace
@@ -65,19 +63,7 @@ const std::array<BallThrow, 5> THESIS_THROWS = { {
     { "5: r 2, v 10", 2.0, 10.0, 0.42, true },
 } };
 
-double tornLength(const Cloth& cloth)
-{
-  double length = 0.0;
-  for (int i = 0; i < cloth.mesh.springCount(); ++i)
-  {
-    const bool torn = cloth.mesh.spring({ i }).border() && !cloth.damage.outer[i];
-    length += torn ? cloth.rest.length[i] : 0.0;
-  }
-  return length;
-}
-
-BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown,
-                      const std::function<void(const Simulation&, const StepReport&)>& watch)
+BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown, const Watch& watch)
 {
   const std::vector<int> hem = hemOf(simulation.cloth());
   ThrowRequest request;

@@ -7,12 +7,18 @@
 
 namespace cloth
 {
+namespace
+{
 
-SimulationParams thesisParams(SolverKind solver)
+constexpr double SETTLING = 6.0;  ///< the cloth hangs still after so long [s]
+
+}  // namespace
+
+SimulationParams thesisParams(const Setting& setting)
 {
   SimulationParams params;
-  params.solver.kind = solver;
-  params.solver.time_step = 0.001;
+  params.solver.kind = setting.solver;
+  params.solver.time_step = setting.time_step;
   params.solver.max_strain = 0.1;
   params.material.areal_density = 0.1;
   params.material.stiffness = 150.0;
@@ -33,7 +39,7 @@ SimulationParams thesisParams(SolverKind solver)
   rules.crack_length = 0.18;
   rules.hem_factor = 2.0;
   rules.hem_width = 0.6;
-  if (solver == SolverKind::FORCE_SPRINGS)
+  if (setting.solver == SolverKind::FORCE_SPRINGS)
   {
     rules.tear_radius = 0.0;
     rules.tear_strain = 0.17;
@@ -45,19 +51,20 @@ SimulationParams thesisParams(SolverKind solver)
   return params;
 }
 
-RectangleParams thesisSheet(int resolution, RectanglePattern pattern, std::uint64_t seed)
+RectangleParams thesisSheet(const Setting& setting)
 {
   RectangleParams sheet;
   sheet.width = 6.0;
   sheet.height = 8.0;
-  sheet.columns = resolution;
-  sheet.rows = resolution;
-  sheet.pattern = pattern;
-  sheet.seed = seed;
+  sheet.columns = setting.resolution;
+  sheet.rows = setting.resolution;
+  sheet.pattern = setting.pattern;
+  sheet.seed = setting.seed;
+  sheet.grading = setting.grading;
   return sheet;
 }
 
-Simulation hungCloth(const RectangleParams& sheet, const SimulationParams& params, double seconds)
+Simulation hungSheet(const RectangleParams& sheet, const SimulationParams& params)
 {
   ClothModel model = rectangle(sheet);
   std::vector<int> upper_edge;
@@ -70,16 +77,27 @@ Simulation hungCloth(const RectangleParams& sheet, const SimulationParams& param
     }
     x = Vec3d(x.x(), -x.z(), x.y());
   }
-  Simulation simulation(model, upper_edge, params);
-  TearRules off = params.tearing;
+  return Simulation(model, upper_edge, params);
+}
+
+void settle(Simulation& simulation, double seconds)
+{
+  const TearRules rules = simulation.params().tearing;
+  TearRules off = rules;
   off.enabled = false;
   simulation.setTearRules(off);
-  const auto steps = std::lround(seconds / params.solver.time_step);
+  const auto steps = std::lround(seconds / simulation.params().solver.time_step);
   for (long i = 0; i < steps; ++i)
   {
     stepOrThrow(simulation);
   }
-  simulation.setTearRules(params.tearing);
+  simulation.setTearRules(rules);
+}
+
+Simulation hungCloth(const Setting& setting)
+{
+  Simulation simulation = hungSheet(thesisSheet(setting), thesisParams(setting));
+  settle(simulation, SETTLING);
   return simulation;
 }
 
@@ -101,6 +119,17 @@ StepReport stepOrThrow(Simulation& simulation)
     throw std::runtime_error(report.fault);
   }
   return report;
+}
+
+double tornLength(const Cloth& cloth)
+{
+  double length = 0.0;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    const bool torn = cloth.mesh.spring({ i }).border() && !cloth.damage.outer[i];
+    length += torn ? cloth.rest.length[i] : 0.0;
+  }
+  return length;
 }
 
 }  // namespace cloth

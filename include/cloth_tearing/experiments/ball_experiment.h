@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 
-#include "cloth_tearing/core/simulation.h"
+#include "cloth_tearing/experiments/thesis_world.h"
 
 namespace cloth
 {
@@ -46,10 +45,6 @@ struct BallOutcome
 ///
 /// @param simulation ends as the ball left it
 /// @param watch called after every step, for pictures and tables; may be empty
-BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown,
-                      const std::function<void(const Simulation&, const StepReport&)>& watch = {});
-
-/// Rest length of all edges that tears opened, both sides [m].
-double tornLength(const Cloth& cloth);
+BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown, const Watch& watch = {});
 
 }  // namespace cloth

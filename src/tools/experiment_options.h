@@ -1,0 +1,44 @@
+// What the command line of thesis_experiments asks for.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cloth_tearing/experiments/thesis_world.h"
+
+namespace cloth
+{
+
+class UsageError : public std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// Empty lists: what the experiment does by itself.
+struct Options
+{
+  std::string experiment;
+  std::vector<int> resolutions;
+  std::vector<RectanglePattern> meshes;
+  std::vector<int> seeds;
+  std::vector<double> time_steps;  ///< [s]
+  double grading = 1.0;
+  SolverKind solver = SolverKind::XPBD;
+  std::string output;  ///< folder; empty = none
+
+  /// Fills the empty lists, then every combination; meshes that have no seed come once.
+  std::vector<Setting> settings(const std::vector<int>& default_resolutions,
+                                const std::vector<RectanglePattern>& default_meshes,
+                                const std::vector<int>& default_seeds) const;
+};
+
+/// @throws UsageError or std::invalid_argument, naming option, value and limit
+Options parseOptions(const std::vector<std::string>& arguments);
+
+const char* nameOf(RectanglePattern pattern);
+const char* nameOf(SolverKind solver);
+
+extern const std::vector<RectanglePattern> ALL_MESHES;
+
+}  // namespace cloth
