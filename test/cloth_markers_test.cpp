@@ -26,6 +26,11 @@ cloth::Snapshot square()
   snapshot.surface.parents = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 } };
   snapshot.surface.triangles = { { { 0, 1, 2 }, { { { 0, 0 }, { 1, 0 }, { 1, 1 } } } },
                                  { { 0, 2, 3 }, { { { 0, 0 }, { 1, 1 }, { 0, 1 } } } } };
+  snapshot.surface.springs = { { { 0, 1 }, -0.1F },
+                               { { 1, 2 }, 0.1F },
+                               { { 2, 3 }, 0.3F },
+                               { { 3, 0 }, 0.0F },
+                               { { 0, 2 }, 0.2F } };
   return snapshot;
 }
 
@@ -171,6 +176,60 @@ TEST(ClothMarkers, ShowStrainFromBlueOverWhiteToRed)
   EXPECT_GT(list.colors[2].r, list.colors[2].b) << "the end of the range is red";
 }
 
+TEST(ClothMarkers, DrawSpringsInPlaceOfTrianglesWhenToldTo)
+{
+  MarkerStyle style;
+  style.coloring = Coloring::WIREFRAME;
+  ClothMarkers painter(style, PLACEMENT);
+
+  const MarkerArray markers = painter.draw(square());
+
+  EXPECT_EQ(find(markers, "cloth", 0)->action, Marker::DELETE) << "the triangles";
+  const Marker& springs = *find(markers, "cloth", 1);
+  EXPECT_EQ(springs.action, Marker::ADD);
+  EXPECT_EQ(springs.type, Marker::LINE_LIST);
+  EXPECT_GT(springs.scale.x, 0.0);
+  ASSERT_EQ(springs.points.size(), 10u) << "two ends of each spring";
+  ASSERT_EQ(springs.colors.size(), 10u);
+  EXPECT_EQ(springs.points[3].x, 1.0);
+  EXPECT_EQ(springs.points[3].z, 3.0) << "placed in frame_id";
+}
+
+TEST(ClothMarkers, DeleteTheSpringsInEveryOtherColoring)
+{
+  for (const Coloring coloring : { Coloring::TEXTURE, Coloring::STRAIN, Coloring::PLAIN })
+  {
+    MarkerStyle style;
+    style.coloring = coloring;
+
+    const MarkerArray markers = ClothMarkers(style, PLACEMENT).draw(square());
+
+    ASSERT_NE(find(markers, "cloth", 1), nullptr);
+    EXPECT_EQ(find(markers, "cloth", 1)->action, Marker::DELETE);
+  }
+}
+
+TEST(ClothMarkers, ColorSpringsByTheirStrainWithinTheRange)
+{
+  MarkerStyle style;
+  style.coloring = Coloring::WIREFRAME;
+  style.strain_range = { 0.0, 0.2 };
+
+  const MarkerArray markers = ClothMarkers(style, PLACEMENT).draw(square());
+
+  const auto& colors = find(markers, "cloth", 1)->colors;
+  for (std::size_t i = 0; i < colors.size(); i += 2)
+  {
+    EXPECT_EQ(colors[i].r, colors[i + 1].r) << "one colour a spring";
+  }
+  EXPECT_GT(colors[0].b, colors[0].r) << "slack is blue";
+  EXPECT_EQ(colors[0].b, colors[6].b) << "and no bluer than the range's lower end";
+  EXPECT_GT(colors[2].g, colors[2].b) << "the middle is orange";
+  EXPECT_GT(colors[2].g, colors[8].g);
+  EXPECT_GT(colors[8].r, colors[8].b + colors[8].g) << "the upper end is red";
+  EXPECT_EQ(colors[4].r, colors[8].r) << "and nothing redder";
+}
+
 TEST(ClothMarkers, LightBothSidesAlike)
 {
   MarkerStyle style;
@@ -232,6 +291,19 @@ TEST(ClothMarkers, LeaveOutWhatCannotBeDrawn)
 
     EXPECT_EQ(find(painter.draw(snapshot), "cloth", 0)->action, Marker::DELETE);
   }
+}
+
+TEST(ClothMarkers, LeaveOutSpringsThatCannotBeDrawn)
+{
+  MarkerStyle style;
+  style.coloring = Coloring::WIREFRAME;
+  cloth::Snapshot snapshot = square();
+  snapshot.surface.position[1] = snapshot.surface.position[0];
+  snapshot.surface.position[3].x() = std::numeric_limits<float>::quiet_NaN();
+
+  const MarkerArray markers = ClothMarkers(style, PLACEMENT).draw(snapshot);
+
+  EXPECT_EQ(find(markers, "cloth", 1)->points.size(), 4u) << "1-2 and 0-2 are left";
 }
 
 TEST(ClothMarkers, ShowTornEdgesWeakPointsAndGrasps)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "cloth_tearing/node/params_loader.h"
 
@@ -98,6 +99,25 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   EXPECT_EQ(params.simulation.material.stiffness, 55.5);
   EXPECT_FALSE(params.simulation.tearing.enabled);
   EXPECT_EQ(params.markers.coloring, cloth_tearing::Coloring::STRAIN);
+}
+
+TEST(ParamsLoader, KnowsEveryColoring)
+{
+  using cloth_tearing::Coloring;
+  const std::map<std::string, Coloring> colorings = { { "texture", Coloring::TEXTURE },
+                                                      { "strain", Coloring::STRAIN },
+                                                      { "plain", Coloring::PLAIN },
+                                                      { "wireframe", Coloring::WIREFRAME } };
+  for (const auto& entry : colorings)
+  {
+    XmlRpcValue tree;
+    tree["markers"]["coloring"] = entry.first;
+
+    const cloth_tearing::LoadedParams loaded = loadParams(tree);
+
+    EXPECT_EQ(joined(loaded.problems), "");
+    EXPECT_EQ(loaded.params.markers.coloring, entry.second) << entry.first;
+  }
 }
 
 TEST(ParamsLoader, TakesWholeNumbersForRealOnes)

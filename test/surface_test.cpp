@@ -32,6 +32,12 @@ TEST(Surface, HasTheClothAsItIs)
     EXPECT_EQ(surface.parents[i], (std::array<int, 2>{ i, i }));
     EXPECT_NEAR(surface.strain[i], 0.0, 1e-6);
   }
+  const int springs = simulation.cloth().mesh.springCount();
+  ASSERT_EQ(surface.springs.size(), static_cast<std::size_t>(springs));
+  for (const SurfaceSpring& spring : surface.springs)
+  {
+    EXPECT_NEAR(spring.strain, 0.0, 1e-6);
+  }
   EXPECT_TRUE(surface.torn_edges.empty());
   EXPECT_TRUE(surface.weak_points.empty());
   ASSERT_EQ(surface.held.size(), 2u);
@@ -73,6 +79,41 @@ TEST(Surface, HasTheLargestStrainAtEachParticle)
   EXPECT_NEAR(surface.strain[0], 0.1, 1e-5);
   EXPECT_NEAR(surface.strain[1], 0.1, 1e-5);
   EXPECT_NEAR(surface.strain[8], 0.0, 1e-6);
+}
+
+TEST(Surface, HasTheStrainOfEachSpring)
+{
+  Cloth cloth = makeCloth(sheet(1.0, 1.0, 3, 3, RectanglePattern::ONE_DIAGONAL), {}, cotton(),
+                          RestShapeSource::IMPORTED, 0.0);
+  cloth.state.position[0].x() -= Real(0.05);  // 10 % of the cell, to its only right neighbour
+
+  const Surface surface = makeSurface(cloth);
+
+  int stretched = 0;
+  for (const SurfaceSpring& spring : surface.springs)
+  {
+    const bool moved = spring.particles[0] == 0 || spring.particles[1] == 0;
+    EXPECT_TRUE(moved || std::abs(spring.strain) < 1e-6);
+    stretched +=
+        std::abs(spring.strain - 0.1) < 1e-5 && spring.particles[0] + spring.particles[1] == 1;
+  }
+  EXPECT_EQ(stretched, 1) << "the spring between 0 and 1";
+}
+
+TEST(Surface, LeavesOutSpringsThatWereReleased)
+{
+  Cloth cloth = makeCloth(sheet(1.0, 1.0, 3, 3), {}, cotton(), RestShapeSource::IMPORTED, 0.0);
+  const auto& ends = cloth.mesh.spring({ 2 }).particles;
+  cloth.springs.release({ 2 });
+
+  const Surface surface = makeSurface(cloth);
+
+  EXPECT_EQ(surface.springs.size(), static_cast<std::size_t>(cloth.mesh.springCount() - 1));
+  const std::array<int, 2> released = { ends[0].index, ends[1].index };
+  for (const SurfaceSpring& spring : surface.springs)
+  {
+    EXPECT_NE(spring.particles, released);
+  }
 }
 
 /// A hanging sheet with a ball thrown through it.
@@ -127,6 +168,7 @@ TEST(Surface, DoesNotDrawPiecesAtRest)
   const Surface surface = simulation.snapshot().surface;
 
   EXPECT_TRUE(surface.triangles.empty());
+  EXPECT_TRUE(surface.springs.empty());
   EXPECT_EQ(surface.position.size(), 20u) << "indices are particle ids";
 }
 

@@ -40,6 +40,7 @@ void addTriangles(const Cloth& cloth, Surface& surface)
 void addSprings(const Cloth& cloth, Surface& surface)
 {
   surface.strain.assign(cloth.mesh.particleCount(), Real(0));
+  surface.springs.reserve(cloth.mesh.springCount());
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
   {
     const SpringId s{ i };
@@ -52,6 +53,7 @@ void addSprings(const Cloth& cloth, Surface& surface)
     if (cloth.springs.structural[i].active())
     {
       const auto strain = static_cast<Real>(cloth.strain(s));
+      surface.springs.push_back({ ends, strain });
       surface.strain[ends[0]] = std::max(surface.strain[ends[0]], strain);
       surface.strain[ends[1]] = std::max(surface.strain[ends[1]], strain);
     }

@@ -22,6 +22,12 @@ constexpr float LEAST_AREA = 1e-12F;  // of a drawn triangle [m^2]
 constexpr int DELETIONS = 30;         // times that a departed sphere is told
 constexpr double GRASP_AXIS = 0.06;   // length of a drawn grasp frame's axes [m]
 
+// Springs from slack to the end of the strain range: dark enough for a light background.
+constexpr std::array<Color, 3> TENSION = {
+  { { 0.55F, 0.66F, 0.84F }, { 0.95F, 0.60F, 0.05F }, { 0.80F, 0.00F, 0.05F } }
+};
+constexpr double SPRING_WIDTH = 0.5;  // of the width of a torn edge
+
 constexpr Color TORN_EDGE = { 0.85F, 0.05F, 0.35F };
 constexpr Color WEAK_POINT = { 1.00F, 0.85F, 0.00F };
 constexpr Color STREAMED_SPHERE = { 0.90F, 0.45F, 0.10F };
@@ -48,6 +54,18 @@ bool drawable(const cloth::Vec3& a, const cloth::Vec3& b, const cloth::Vec3& c)
 {
   const float area = 0.5F * (b - a).cross(c - a).norm();
   return std::isfinite(area) && area > LEAST_AREA;
+}
+
+bool drawable(const cloth::Vec3& a, const cloth::Vec3& b)
+{
+  return a.allFinite() && b.allFinite() && a != b;
+}
+
+/// The colour at `place`, 0 to 1, between `from` and `to`.
+Color between(const Color& from, const Color& to, float place)
+{
+  return { from[0] + place * (to[0] - from[0]), from[1] + place * (to[1] - from[1]),
+           from[2] + place * (to[2] - from[2]) };
 }
 
 bool sameTexture(const std::array<cloth::Vec2d, 3>& a, const std::array<cloth::Vec2d, 3>& b)
@@ -95,6 +113,7 @@ MarkerArray ClothMarkers::draw(const cloth::Snapshot& snapshot)
 {
   MarkerArray markers;
   markers.markers.push_back(drawCloth(snapshot.surface));
+  markers.markers.push_back(drawSprings(snapshot.surface));
   markers.markers.push_back(drawTornEdges(snapshot.surface));
   markers.markers.push_back(drawWeakPoints(snapshot.surface));
   drawSpheres(markers, snapshot.spheres);
@@ -111,9 +130,36 @@ Marker ClothMarkers::drawCloth(const cloth::Surface& surface)
   {
     addTexture(list, surface);
   }
-  else
+  else if (style_.coloring != Coloring::WIREFRAME)
   {
     addTriangles(list, surface);
+  }
+  deleteIfEmpty(list);
+  return list;
+}
+
+/// The other way to draw the cloth: one of the two lists is always deleted.
+Marker ClothMarkers::drawSprings(const cloth::Surface& surface) const
+{
+  Marker list = marker("cloth", 1, Marker::LINE_LIST);
+  list.scale.x = SPRING_WIDTH * style_.edge_width;
+  if (style_.coloring == Coloring::WIREFRAME)
+  {
+    for (const cloth::SurfaceSpring& spring : surface.springs)
+    {
+      const cloth::Vec3& a = surface.position[spring.particles[0]];
+      const cloth::Vec3& b = surface.position[spring.particles[1]];
+      if (!drawable(a, b))
+      {
+        continue;
+      }
+      const float place = 2.0F * placeInRange(spring.strain);
+      const Color color = place < 1.0F ? between(TENSION[0], TENSION[1], place)
+                                       : between(TENSION[1], TENSION[2], place - 1.0F);
+      list.points.push_back(toPoint(a.cast<double>(), placement_));
+      list.points.push_back(toPoint(b.cast<double>(), placement_));
+      list.colors.insert(list.colors.end(), 2, rgba(color));
+    }
   }
   deleteIfEmpty(list);
   return list;
@@ -183,15 +229,19 @@ void ClothMarkers::addTriangles(Marker& list, const cloth::Surface& surface) con
   }
 }
 
-Color ClothMarkers::strainColor(cloth::Real strain) const
+/// 0 at the lower end of the strain range and below, 1 at the upper end and above.
+float ClothMarkers::placeInRange(cloth::Real strain) const
 {
   const double low = style_.strain_range[0];
   const double high = style_.strain_range[1];
-  const double place = std::min(1.0, std::max(0.0, (strain - low) / (high - low)));
-  const float away = static_cast<float>(std::abs(2.0 * place - 1.0));  // from white
-  const Color end = place < 0.5 ? Color{ 0.10F, 0.25F, 0.85F } : Color{ 0.85F, 0.10F, 0.10F };
-  return { 1.0F + away * (end[0] - 1.0F), 1.0F + away * (end[1] - 1.0F),
-           1.0F + away * (end[2] - 1.0F) };
+  return static_cast<float>(std::min(1.0, std::max(0.0, (strain - low) / (high - low))));
+}
+
+Color ClothMarkers::strainColor(cloth::Real strain) const
+{
+  const float place = placeInRange(strain);
+  const Color end = place < 0.5F ? Color{ 0.10F, 0.25F, 0.85F } : Color{ 0.85F, 0.10F, 0.10F };
+  return between({ 1.0F, 1.0F, 1.0F }, end, std::abs(2.0F * place - 1.0F));
 }
 
 // -- what the thesis' figures show

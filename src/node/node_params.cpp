@@ -28,35 +28,6 @@ void append(std::vector<std::string>& found, const std::string& group,
   }
 }
 
-void checkFrame(std::vector<std::string>& found, const std::string& frame_id)
-{
-  if (frame_id.empty())
-  {
-    found.push_back("frame_id is empty, must name a tf frame");
-  }
-  else if (frame_id.front() == '/')
-  {
-    found.push_back("frame_id is \"" + frame_id + "\", must not begin with a slash");
-  }
-}
-
-void checkStyle(std::vector<std::string>& found, const MarkerStyle& style)
-{
-  check(found, "markers/checks", style.checks, Range::between(1, 200));
-  check(found, "markers/edge_width [m]", style.edge_width, Range::aboveUpTo(0.0, 1.0));
-  check(found, "markers/point_size [m]", style.point_size, Range::aboveUpTo(0.0, 1.0));
-  for (int i = 0; i < 3; ++i)
-  {
-    check(found, "markers/plain_color[" + std::to_string(i) + "]", style.plain_color[i],
-          Range::between(0.0, 1.0));
-  }
-  if (!(style.strain_range[0] < style.strain_range[1]))
-  {
-    found.push_back("markers/strain_range is from " + cloth::text(style.strain_range[0]) + " to " +
-                    cloth::text(style.strain_range[1]) + ", must ascend");
-  }
-}
-
 /// What is wrong with the simulation's parameters, each group under its own name.
 std::vector<std::string> grouped(const cloth::SimulationParams& simulation)
 {
@@ -109,16 +80,48 @@ std::string resolved(const std::string& model_file)
 
 }  // namespace
 
+std::vector<std::string> frameProblems(const std::string& frame_id)
+{
+  if (frame_id.empty())
+  {
+    return { "frame_id is empty, must name a tf frame" };
+  }
+  if (frame_id.front() == '/')
+  {
+    return { "frame_id is \"" + frame_id + "\", must not begin with a slash" };
+  }
+  return {};
+}
+
+std::vector<std::string> problems(const MarkerStyle& style)
+{
+  std::vector<std::string> found;
+  check(found, "checks", style.checks, Range::between(1, 200));
+  check(found, "edge_width [m]", style.edge_width, Range::aboveUpTo(0.0, 1.0));
+  check(found, "point_size [m]", style.point_size, Range::aboveUpTo(0.0, 1.0));
+  for (int i = 0; i < 3; ++i)
+  {
+    check(found, "plain_color[" + std::to_string(i) + "]", style.plain_color[i],
+          Range::between(0.0, 1.0));
+  }
+  if (!(style.strain_range[0] < style.strain_range[1]))
+  {
+    found.push_back("strain_range is from " + cloth::text(style.strain_range[0]) + " to " +
+                    cloth::text(style.strain_range[1]) + ", must ascend");
+  }
+  return found;
+}
+
 std::vector<std::string> problems(const NodeParams& params)
 {
   std::vector<std::string> found;
-  checkFrame(found, params.frame_id);
+  append(found, "", frameProblems(params.frame_id));
   check(found, "tf_patience [s]", params.tf_patience, Range::between(0.0, 10.0));
   check(found, "command_patience [s]", params.command_patience, Range::between(0.01, 60.0));
   check(found, "marker_rate [Hz]", params.marker_rate, Range::between(0.1, 1000.0));
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
-  checkStyle(found, params.markers);
+  append(found, "markers/", problems(params.markers));
   check(found, "cloth_pose/position [m]", params.cloth_pose.position, FARTHEST_ORIGIN);
   if (!params.model_file.empty() && !inPackage(params.model_file) &&
       params.model_file.front() != '/')

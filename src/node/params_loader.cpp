@@ -27,41 +27,16 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.read("status_rate", params.status_rate);
 }
 
-void readMarkers(ParamReader& reader, MarkerStyle& style)
-{
-  reader.readChoice<Coloring>("markers/coloring",
-                              { { "texture", Coloring::TEXTURE },
-                                { "strain", Coloring::STRAIN },
-                                { "plain", Coloring::PLAIN } },
-                              style.coloring);
-  reader.read("markers/checks", style.checks);
-  reader.read("markers/strain_range", style.strain_range);
-  reader.read("markers/plain_color", style.plain_color);
-  reader.read("markers/edge_width", style.edge_width);
-  reader.read("markers/point_size", style.point_size);
-}
-
 void readRectangle(ParamReader& reader, cloth::RectangleParams& rectangle)
 {
   reader.read("rectangle/width", rectangle.width);
   reader.read("rectangle/height", rectangle.height);
   reader.read("rectangle/columns", rectangle.columns);
   reader.read("rectangle/rows", rectangle.rows);
-  reader.readChoice<cloth::RectanglePattern>(
-      "rectangle/pattern",
-      { { "one_diagonal", cloth::RectanglePattern::ONE_DIAGONAL },
-        { "alternating", cloth::RectanglePattern::ALTERNATING },
-        { "irregular", cloth::RectanglePattern::IRREGULAR } },
-      rectangle.pattern);
+  readPattern(reader, "rectangle/pattern", rectangle.pattern);
   reader.read("rectangle/grading", rectangle.grading);
   reader.read("rectangle/jitter", rectangle.jitter);
-  int seed = static_cast<int>(rectangle.seed);
-  reader.read("rectangle/seed", seed);
-  if (seed < 0)
-  {
-    reader.note("rectangle/seed is " + std::to_string(seed) + ", must be at least 0");
-  }
-  rectangle.seed = static_cast<std::uint64_t>(seed);
+  readSeed(reader, "rectangle/seed", rectangle.seed);
   std::vector<std::vector<double>> slits;
   reader.readRows("rectangle/slits", 4, slits);
   for (const std::vector<double>& s : slits)
@@ -92,10 +67,7 @@ void readModel(ParamReader& reader, NodeParams& params)
 
 void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
 {
-  reader.readChoice<cloth::SolverKind>("solver",
-                                       { { "xpbd", cloth::SolverKind::XPBD },
-                                         { "force_springs", cloth::SolverKind::FORCE_SPRINGS } },
-                                       simulation.solver.kind);
+  readSolver(reader, simulation.solver.kind);
   reader.read("time_step", simulation.solver.time_step);
   reader.read("max_strain", simulation.solver.max_strain);
   reader.read("max_substeps", simulation.solver.max_substeps);
@@ -155,6 +127,50 @@ void readAll(ParamReader& reader, NodeParams& params)
 }
 
 }  // namespace
+
+void readMarkers(ParamReader& reader, MarkerStyle& style)
+{
+  reader.readChoice<Coloring>("markers/coloring",
+                              { { "texture", Coloring::TEXTURE },
+                                { "strain", Coloring::STRAIN },
+                                { "plain", Coloring::PLAIN },
+                                { "wireframe", Coloring::WIREFRAME } },
+                              style.coloring);
+  reader.read("markers/checks", style.checks);
+  reader.read("markers/strain_range", style.strain_range);
+  reader.read("markers/plain_color", style.plain_color);
+  reader.read("markers/edge_width", style.edge_width);
+  reader.read("markers/point_size", style.point_size);
+}
+
+void readPattern(ParamReader& reader, const std::string& name, cloth::RectanglePattern& pattern)
+{
+  reader.readChoice<cloth::RectanglePattern>(
+      name,
+      { { "one_diagonal", cloth::RectanglePattern::ONE_DIAGONAL },
+        { "alternating", cloth::RectanglePattern::ALTERNATING },
+        { "irregular", cloth::RectanglePattern::IRREGULAR } },
+      pattern);
+}
+
+void readSeed(ParamReader& reader, const std::string& name, std::uint64_t& seed)
+{
+  int given = static_cast<int>(seed);
+  reader.read(name, given);
+  if (given < 0)
+  {
+    reader.note(name + " is " + std::to_string(given) + ", must be at least 0");
+  }
+  seed = static_cast<std::uint64_t>(given);
+}
+
+void readSolver(ParamReader& reader, cloth::SolverKind& solver)
+{
+  reader.readChoice<cloth::SolverKind>("solver",
+                                       { { "xpbd", cloth::SolverKind::XPBD },
+                                         { "force_springs", cloth::SolverKind::FORCE_SPRINGS } },
+                                       solver);
+}
 
 LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree)
 {

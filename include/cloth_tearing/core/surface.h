@@ -20,14 +20,21 @@ struct SurfaceTriangle
   std::array<Vec2d, 3> uv;       ///< texture position of each corner [-]
 };
 
+/// A structural spring of the surface; indices into Surface::position.
+struct SurfaceSpring
+{
+  std::array<int, 2> particles;
+  Real strain;  ///< [-]; below 0 it is slack
+};
+
 struct HeldParticle
 {
   int particle;
   std::uint64_t grasp;  ///< grasp id; 0 = pinned
 };
 
-/// The cloth as it is, for drawing and measuring. Pieces put to rest have no triangles here, but
-/// keep their particles, so that indices are particle ids.
+/// The cloth as it is, for drawing and measuring. Pieces put to rest have no triangles and springs
+/// here, but keep their particles, so that indices are particle ids.
 struct Surface
 {
   double time = 0.0;  ///< [s]
@@ -40,6 +47,7 @@ struct Surface
   std::vector<std::array<int, 2>>
       parents;  ///< of each particle; itself twice if it was there first
   std::vector<SurfaceTriangle> triangles;
+  std::vector<SurfaceSpring> springs;  ///< those that carry load: released ones are left out
   std::vector<std::array<int, 2>> torn_edges;  ///< ends of each edge that a tear opened
   std::vector<int> weak_points;
   std::vector<HeldParticle> held;

@@ -17,9 +17,10 @@
 namespace cloth_tearing
 {
 
-/// Namespaces cloth, torn_edges, weak_points, spheres and grasps; fixed ids. What is not there is
-/// deleted: there is never an empty list, a triangle without area or a number that is not finite.
-/// rviz draws lists with colours unlit, so the light is in the colours, the same on both sides.
+/// Namespaces cloth (0 its triangles, 1 its springs: one or the other), torn_edges, weak_points,
+/// spheres and grasps; fixed ids. What is not there is deleted: there is never an empty list, a
+/// triangle without area or a number that is not finite. rviz draws lists with colours unlit, so
+/// the light is in the colours, the same on both sides.
 class ClothMarkers
 {
 public:
@@ -34,6 +35,7 @@ private:
 
   visualization_msgs::Marker marker(const char* ns, int id, int type) const;
   visualization_msgs::Marker drawCloth(const cloth::Surface& surface);
+  visualization_msgs::Marker drawSprings(const cloth::Surface& surface) const;
   void addTexture(visualization_msgs::Marker& list, const cloth::Surface& surface);
   void paint(const std::vector<cloth::SurfaceTriangle>& triangles);
   void addTriangles(visualization_msgs::Marker& list, const cloth::Surface& surface) const;
@@ -44,6 +46,7 @@ private:
   void drawGrasps(visualization_msgs::MarkerArray& markers, const cloth::Snapshot& snapshot) const;
   void forgetSpheres(const std::vector<cloth::Sphere>& present);
   int sphereId(const SphereKey& key);
+  float placeInRange(cloth::Real strain) const;
   Color strainColor(cloth::Real strain) const;
 
   MarkerStyle style_;

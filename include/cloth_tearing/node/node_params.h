@@ -18,9 +18,10 @@ namespace cloth_tearing
 /// What the cloth's colour shows.
 enum class Coloring
 {
-  TEXTURE,  ///< a woven checker, laid on by the texture position
-  STRAIN,   ///< blue - white - red
-  PLAIN,    ///< one colour
+  TEXTURE,    ///< a woven checker, laid on by the texture position
+  STRAIN,     ///< blue - white - red
+  PLAIN,      ///< one colour
+  WIREFRAME,  ///< the springs alone, from pale to red by their strain
 };
 
 /// How ~markers look.
@@ -28,7 +29,7 @@ struct MarkerStyle
 {
   Coloring coloring = Coloring::TEXTURE;
   int checks = 16;                                    ///< along one unit of u and of v, 1 to 200
-  std::array<double, 2> strain_range = { 0.0, 0.2 };  ///< blue to red [-], ascending
+  std::array<double, 2> strain_range = { 0.0, 0.2 };  ///< from end to end of the colours [-]
   cloth::Vec3d plain_color = cloth::Vec3d(0.85, 0.80, 0.70);  ///< red, green, blue [-], 0 to 1
   double edge_width = 0.004;                                  ///< of torn edges [m], > 0
   double point_size = 0.016;  ///< weak points and held particles [m], > 0
@@ -65,6 +66,10 @@ struct NodeParams
 /// Everything wrong with `params`, one sentence each, naming the parameter; empty if they can be
 /// used.
 std::vector<std::string> problems(const NodeParams& params);
+std::vector<std::string> problems(const MarkerStyle& style);
+
+/// Why nothing can be published in `frame_id`; empty if it can.
+std::vector<std::string> frameProblems(const std::string& frame_id);
 
 /// The simulation's parameters with the floor's height in the cloth frame, whose axes are those of
 /// frame_id and whose origin is cloth_pose.position.

@@ -3,10 +3,12 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "cloth_tearing/node/node_params.h"
+#include "cloth_tearing/node/param_reader.h"
 
 namespace cloth_tearing
 {
@@ -26,5 +28,12 @@ LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree);
 
 /// The names of all parameters, group/entry, ascending.
 std::vector<std::string> parameterNames();
+
+/// What other nodes are told in the same words: the group `markers`, how a rectangle is meshed, and
+/// `solver`.
+void readMarkers(ParamReader& reader, MarkerStyle& style);
+void readPattern(ParamReader& reader, const std::string& name, cloth::RectanglePattern& pattern);
+void readSeed(ParamReader& reader, const std::string& name, std::uint64_t& seed);
+void readSolver(ParamReader& reader, cloth::SolverKind& solver);
 
 }  // namespace cloth_tearing
