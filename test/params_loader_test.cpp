@@ -74,6 +74,7 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   tree["pins"]["regions"] = list({ list({ 0, 0, 0, 1 }) });
   tree["solver"] = "force_springs";
   tree["material"]["stiffness"] = 55.5;
+  tree["material"]["stiffness_law"] = "per_spring";
   tree["tearing"]["enabled"] = false;
   tree["markers"]["coloring"] = "strain";
 
@@ -97,6 +98,7 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   EXPECT_EQ(params.pins.regions[0].radius, 1.0);
   EXPECT_EQ(params.simulation.solver.kind, cloth::SolverKind::FORCE_SPRINGS);
   EXPECT_EQ(params.simulation.material.stiffness, 55.5);
+  EXPECT_EQ(params.simulation.material.stiffness_law, cloth::StiffnessLaw::PER_SPRING);
   EXPECT_FALSE(params.simulation.tearing.enabled);
   EXPECT_EQ(params.markers.coloring, cloth_tearing::Coloring::STRAIN);
 }

@@ -208,6 +208,28 @@ TEST_P(BothSolvers, LeaveHeldParticlesWhereTheyAre)
   }
 }
 
+TEST(StiffnessPerSpring, IsTheSameWhateverTheLength)
+{
+  Material material = cotton();
+  material.stiffness_law = StiffnessLaw::PER_SPRING;
+  RectangleParams sheet;
+  sheet.columns = sheet.rows = 4;
+  sheet.height = 2.0;
+
+  const Cloth cloth = makeCloth(rectangle(sheet), {}, material, RestShapeSource::IMPORTED, 0.0);
+
+  for (const SpringLaw& law : cloth.springs.structural)
+  {
+    EXPECT_EQ(law.stiffness, static_cast<Real>(material.stiffness));
+    EXPECT_EQ(law.damping, static_cast<Real>(material.damping));
+  }
+  for (const SpringLaw& law : cloth.springs.bend_shear)
+  {
+    EXPECT_EQ(law.stiffness,
+              law.active() ? static_cast<Real>(material.bend_shear_stiffness) : Real(0));
+  }
+}
+
 TEST(Xpbd, StaysCalmAtALongStepAndAnyStiffness)
 {
   for (double stiffness : { 1e3, 1e5, 1e7 })

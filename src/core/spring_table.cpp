@@ -6,6 +6,12 @@ namespace cloth
 namespace
 {
 
+/// What a spring of this length gets of the material's stiffness and damping [-].
+double shareOf(const Material& material, double area, double length)
+{
+  return material.stiffness_law == StiffnessLaw::PER_SPRING ? 1.0 : area / (length * length);
+}
+
 void refreshSpring(SpringTable& table, const Mesh& mesh, const RestShape& rest,
                    const Material& material, SpringId s)
 {
@@ -15,8 +21,9 @@ void refreshSpring(SpringTable& table, const Mesh& mesh, const RestShape& rest,
   const bool released = structural.rest > 0 && !structural.active();
   const double length = rest.length[s.index];
   structural.rest = static_cast<Real>(length);
-  structural.stiffness = static_cast<Real>(material.stiffness * area / (length * length));
-  structural.damping = static_cast<Real>(material.damping * area / (length * length));
+  const double share = shareOf(material, area, length);
+  structural.stiffness = static_cast<Real>(material.stiffness * share);
+  structural.damping = static_cast<Real>(material.damping * share);
   if (!released)
   {
     structural.a = spring.particles[0].index;
@@ -28,12 +35,14 @@ void refreshSpring(SpringTable& table, const Mesh& mesh, const RestShape& rest,
   const double reach = rest.bend_length[s.index];
   if (reach > 0.0)
   {
-    const double share = material.bend_shear_stiffness / material.stiffness;
+    const double bend_share = shareOf(material, area, reach);
+    const double bend_damping =
+        material.damping * material.bend_shear_stiffness / material.stiffness;
     bend.a = mesh.opposite(s, 0).index;
     bend.b = mesh.opposite(s, 1).index;
     bend.rest = static_cast<Real>(reach);
-    bend.stiffness = static_cast<Real>(material.bend_shear_stiffness * area / (reach * reach));
-    bend.damping = static_cast<Real>(share * material.damping * area / (reach * reach));
+    bend.stiffness = static_cast<Real>(material.bend_shear_stiffness * bend_share);
+    bend.damping = static_cast<Real>(bend_damping * bend_share);
   }
 }
 

@@ -41,8 +41,9 @@ SimulationParams thesisParams(const Setting& setting)
   rules.hem_width = 0.6;
   if (setting.solver == SolverKind::FORCE_SPRINGS)
   {
+    params.material.stiffness_law = StiffnessLaw::PER_SPRING;
     rules.tear_radius = 0.0;
-    rules.tear_strain = 0.17;
+    rules.tear_strain = 0.145;
     rules.weak_tear_strain = 0.12;
     rules.one_point_tear_strain = 0.12;
     rules.crack_length = 0.0;

@@ -77,6 +77,10 @@ void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
   reader.read("tear_log_size", simulation.tear_log_size);
 
   reader.read("material/areal_density", simulation.material.areal_density);
+  reader.readChoice<cloth::StiffnessLaw>("material/stiffness_law",
+                                         { { "per_width", cloth::StiffnessLaw::PER_WIDTH },
+                                           { "per_spring", cloth::StiffnessLaw::PER_SPRING } },
+                                         simulation.material.stiffness_law);
   reader.read("material/stiffness", simulation.material.stiffness);
   reader.read("material/bend_shear_stiffness", simulation.material.bend_shear_stiffness);
   reader.read("material/damping", simulation.material.damping);

@@ -9,13 +9,23 @@
 namespace cloth
 {
 
+/// What the stiffness and damping of a Material belong to.
+enum class StiffnessLaw
+{
+  PER_WIDTH,   ///< the cloth: a spring gets its share by adjacent rest area over squared rest
+               ///< length, so that unequal triangles act as one cloth
+  PER_SPRING,  ///< every single spring, whatever its length, as in the thesis: the mesh decides how
+               ///< stiff the cloth is
+};
+
 /// Elastic behaviour, the same for both solvers. SI units; the defaults make a cotton-like sheet.
 struct Material
 {
-  double areal_density = 0.12;         ///< [kg/m^2], > 0
-  double stiffness = 100.0;            ///< Y of structural springs, per width [N/m], > 0
-  double bend_shear_stiffness = 20.0;  ///< Yb of bend-shear springs, per width [N/m], >= 0 (3.1.2)
-  double damping = 0.02;               ///< spring damping, per width [N s/m], >= 0 (2.1.1)
+  double areal_density = 0.12;  ///< [kg/m^2], > 0
+  StiffnessLaw stiffness_law = StiffnessLaw::PER_WIDTH;
+  double stiffness = 100.0;            ///< Y of structural springs [N/m], > 0
+  double bend_shear_stiffness = 20.0;  ///< Yb of bend-shear springs [N/m], >= 0 (3.1.2)
+  double damping = 0.02;               ///< spring damping [N s/m], >= 0 (2.1.1)
 };
 
 /// What acts on the cloth from outside (2.1.1).

@@ -25,8 +25,7 @@ struct SpringLaw
 /// Structural and bend-shear springs, both indexed by SpringId: a bend-shear spring belongs to the
 /// interior spring that it crosses (3.1.2).
 ///
-/// Stiffness and damping are the material's, per width, times adjacent rest area over squared rest
-/// length, so that unequal triangles act as one cloth.
+/// Stiffness and damping are the material's, shared out by its StiffnessLaw.
 struct SpringTable
 {
   std::vector<SpringLaw> structural;

@@ -24,8 +24,9 @@ struct Setting
   double time_step = 0.001;  ///< [s]
 };
 
-/// One parameter set for all experiments of a solver. XPBD tears by the mesh-independent rules;
-/// the force springs by the thesis' own local rule, to the letter.
+/// One parameter set for all experiments of a solver. XPBD has the mesh-independent stiffness and
+/// tear rules; the force springs the thesis' own, to the letter: one constant for all springs, each
+/// of which tears on its own strain.
 SimulationParams thesisParams(const Setting& setting);
 
 /// The sheet of 6 x 8.
