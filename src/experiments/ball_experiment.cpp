@@ -1,4 +1,4 @@
-// Throws balls and judges by geometry what became of it.
+// Throws balls and judges by geometry what became of them.
 #include "cloth_tearing/experiments/ball_experiment.h"
 
 #include <algorithm>
@@ -9,27 +9,27 @@ namespace cloth
 namespace
 {
 
-constexpr double START = 3.5;   ///< the ball's centre starts so far in front of the cloth [m]
-constexpr double ASIDE = 0.03;  ///< off the middle, which may be a symmetry line of the mesh [m]
-constexpr double AFTER = 2.0;   ///< watched so long after it has passed as far behind [s]
-constexpr int SAMPLE = 10;      ///< contact and utilisation are looked at every so many steps
+constexpr double AFTER = 2.0;   ///< watched so long after a ball has passed as far behind [s]
+constexpr int SAMPLE = 10;      ///< contact is looked at every so many steps
+constexpr int PEAK_SAMPLE = 5;  ///< and strain every so many
 
-/// Particles at the lower edge of the untorn cloth.
+/// Particles at the lower edge of the material, copies among them.
 std::vector<int> hemOf(const Cloth& cloth)
 {
-  double lowest = 0.0;
-  for (const Vec3& x : cloth.state.position)
-  {
-    lowest = std::min(lowest, static_cast<double>(x.z()));
-  }
   std::vector<int> hem;
-  for (int i = 0; i < cloth.mesh.particleCount(); ++i)
+  for (int t = 0; t < cloth.mesh.triangleCount(); ++t)
   {
-    if (cloth.mesh.onBorder({ i }) && cloth.state.position[i].z() < 0.97 * lowest)
+    const Triangle& triangle = cloth.mesh.triangle({ t });
+    for (int k = 0; k < 3; ++k)
     {
-      hem.push_back(i);
+      if (triangle.uv[k].y() < 1e-9)
+      {
+        hem.push_back(triangle.particles[k].index);
+      }
     }
   }
+  std::sort(hem.begin(), hem.end());
+  hem.erase(std::unique(hem.begin(), hem.end()), hem.end());
   return hem;
 }
 
@@ -41,16 +41,39 @@ bool touches(const Cloth& cloth, const Sphere& ball, double margin)
                      { return (x.cast<double>() - ball.center).squaredNorm() < reach * reach; });
 }
 
-/// Whether the hem, where the ball is, lies above the ball's centre.
-bool hemIsAbove(const Cloth& cloth, const std::vector<int>& hem, const Sphere& ball)
+/// Whether the hem, where the ball is, lies above the ball's centre while they touch.
+bool slides(const Cloth& cloth, const Sphere& ball, double margin)
 {
-  return std::any_of(hem.begin(), hem.end(),
-                     [&](int i)
-                     {
-                       const Vec3d x = cloth.state.position[i].cast<double>();
-                       return std::abs(x.x() - ball.center.x()) < 0.5 * ball.radius &&
-                              x.z() > ball.center.z();
-                     });
+  const std::vector<int> hem = hemOf(cloth);
+  const auto above = [&](int i)
+  {
+    const Vec3d x = cloth.state.position[i].cast<double>();
+    return std::abs(x.x() - ball.center.x()) < 0.5 * ball.radius && x.z() > ball.center.z();
+  };
+  return std::any_of(hem.begin(), hem.end(), above) && touches(cloth, ball, margin);
+}
+
+double lifetime(const BallThrow& thrown)
+{
+  return 2.0 * BALL_START / thrown.speed + AFTER;
+}
+
+std::uint64_t start(Simulation& simulation, const BallThrow& thrown, double hanging_height)
+{
+  ThrowRequest request;
+  request.center = Vec3d(thrown.aside, -BALL_START, -hanging_height * (1.0 - thrown.height));
+  request.velocity = Vec3d(0.0, thrown.speed, 0.0);
+  request.radius = thrown.radius;
+  request.lifetime = lifetime(thrown);
+  return simulation.throwSphere(request);
+}
+
+/// The ball that is nearest to a tear; the last one thrown if they are all gone.
+std::size_t ballOf(const TearEvent& tear, const std::vector<std::uint64_t>& ids)
+{
+  const auto found = std::find(ids.begin(), ids.end(), tear.cause.id);
+  const bool by_ball = tear.cause.kind == CauseKind::THROWN_SPHERE && found != ids.end();
+  return by_ball ? found - ids.begin() : ids.size() - 1;
 }
 
 }  // namespace
@@ -63,47 +86,87 @@ const std::array<BallThrow, 5> THESIS_THROWS = { {
     { "5: r 2, v 10", 2.0, 10.0, 0.42, true },
 } };
 
-BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown, const Watch& watch)
-{
-  const std::vector<int> hem = hemOf(simulation.cloth());
-  ThrowRequest request;
-  request.center = Vec3d(ASIDE, -START, -hangingHeight(simulation) * (1.0 - thrown.height));
-  request.velocity = Vec3d(0.0, thrown.speed, 0.0);
-  request.radius = thrown.radius;
-  request.lifetime = 2.0 * START / thrown.speed + AFTER;
-  simulation.throwSphere(request);
+const std::array<BallThrow, 3> THREE_BALLS = { {
+    { "figure 4.1, left", 0.5, 3.0, 0.68, true, -1.7 },
+    { "figure 4.1, right", 0.5, 3.0, 0.60, true, 1.7 },
+    { "figure 4.1, middle", 0.5, 3.0, 0.68, true, 0.03 },
+} };
 
-  BallOutcome outcome;
+std::vector<BallOutcome> throwBalls(Simulation& simulation, const std::vector<BallThrow>& throws,
+                                    double interval, const Watch& watch)
+{
   const SimulationParams& params = simulation.params();
-  const auto steps = std::lround(request.lifetime / params.solver.time_step);
+  const double hanging_height = hangingHeight(simulation);
+  const auto stepsIn = [&](double time) { return std::lround(time / params.solver.time_step); };
+  const long steps = stepsIn((throws.size() - 1) * interval + lifetime(throws.back()));
+  std::vector<BallOutcome> outcomes(throws.size());
+  std::vector<std::uint64_t> ids;  // of the balls thrown so far
+  double peak_strain = 0.0;
   for (long i = 0; i < steps; ++i)
   {
+    if (ids.size() < throws.size() && i == stepsIn(ids.size() * interval))
+    {
+      ids.push_back(start(simulation, throws[ids.size()], hanging_height));
+    }
     const StepReport report = stepOrThrow(simulation);
+    peak_strain = std::max(peak_strain, report.max_strain);
     for (const TearEvent& tear : report.tears)
     {
-      ++outcome.tears[static_cast<int>(tear.kind)];
+      ++outcomes[ballOf(tear, ids)].tears[static_cast<int>(tear.kind)];
     }
-    outcome.peak_strain = std::max(outcome.peak_strain, report.max_strain);
-    if (i % SAMPLE == 0 && !simulation.spheres().empty())
+    for (const Sphere& ball : simulation.spheres())
     {
-      const Sphere& ball = simulation.spheres().front();
-      outcome.slid =
-          outcome.slid || (hemIsAbove(simulation.cloth(), hem, ball) &&
-                           touches(simulation.cloth(), ball, 2.0 * params.contact.thickness));
-      if (!params.tearing.enabled)
-      {
-        outcome.peak_utilisation =
-            std::max(outcome.peak_utilisation, simulation.summary().utilisation);
-      }
+      BallOutcome& outcome = outcomes[std::find(ids.begin(), ids.end(), ball.id) - ids.begin()];
+      outcome.slid = outcome.slid || (i % SAMPLE == 0 && slides(simulation.cloth(), ball,
+                                                                2.0 * params.contact.thickness));
     }
     if (watch)
     {
       watch(simulation, report);
     }
   }
-  outcome.torn_length = tornLength(simulation.cloth());
-  outcome.pieces = simulation.cloth().damage.pieces;
-  return outcome;
+  for (BallOutcome& outcome : outcomes)
+  {
+    outcome.peak_strain = peak_strain;
+    outcome.torn_length = tornLength(simulation.cloth());
+    outcome.pieces = simulation.cloth().damage.pieces;
+  }
+  return outcomes;
+}
+
+BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown, const Watch& watch)
+{
+  return throwBalls(simulation, { thrown }, 0.0, watch).front();
+}
+
+BallPeaks peaksOf(Simulation& simulation, const BallThrow& thrown)
+{
+  TearRules off = simulation.params().tearing;
+  off.enabled = false;
+  simulation.setTearRules(off);
+  // With thresholds of 1 a utilisation is the strain that was read, over the hem's factor.
+  TearRules patch = off;
+  patch.tear_strain = 1.0;
+  TearRules local_hem = patch;
+  local_hem.tear_radius = 0.0;
+  Tearing reading_patch(patch);
+  Tearing reading_local(local_hem);
+
+  BallPeaks peaks;
+  long steps = 0;
+  const BallOutcome outcome = throwBall(
+      simulation, thrown,
+      [&](const Simulation& now, const StepReport&)
+      {
+        if (++steps % PEAK_SAMPLE == 0)
+        {
+          peaks.patch = std::max(peaks.patch, reading_patch.worst(now.cloth()).utilisation());
+          peaks.local_hem =
+              std::max(peaks.local_hem, reading_local.worst(now.cloth()).utilisation());
+        }
+      });
+  peaks.local = outcome.peak_strain;
+  return peaks;
 }
 
 }  // namespace cloth

@@ -11,17 +11,6 @@ namespace cloth
 namespace
 {
 
-std::string clothName(const Setting& setting)
-{
-  std::string name =
-      std::string(nameOf(setting.pattern)) + "_" + std::to_string(setting.resolution);
-  if (setting.pattern == RectanglePattern::IRREGULAR)
-  {
-    name += "_" + std::to_string(setting.seed);
-  }
-  return name;
-}
-
 void print(const Setting& setting, const BallThrow& thrown, const BallOutcome& outcome)
 {
   const char* const what = outcome.toreThrough()  ? "torn through"
@@ -35,13 +24,14 @@ void print(const Setting& setting, const BallThrow& thrown, const BallOutcome& o
   std::fflush(stdout);
 }
 
-Row columns(const Setting& setting, std::size_t experiment, const BallThrow& thrown,
+Row columns(const Setting& setting, const std::string& experiment, const BallThrow& thrown,
             const BallOutcome& outcome)
 {
   Row row = settingColumns(setting);
-  row.insert(row.end(), { { "experiment", std::to_string(experiment) },
+  row.insert(row.end(), { { "experiment", experiment },
                           { "radius", text(thrown.radius) },
                           { "speed", text(thrown.speed) },
+                          { "aside", text(thrown.aside) },
                           { "height", text(thrown.height) },
                           { "basic", std::to_string(outcome.tears[0]) },
                           { "weak_point", std::to_string(outcome.tears[1]) },
@@ -55,23 +45,41 @@ Row columns(const Setting& setting, std::size_t experiment, const BallThrow& thr
   return row;
 }
 
-/// @return how many of the five end otherwise than in the thesis
-int ballsOn(const Setting& setting, Output& output)
+struct Count
+{
+  int runs = 0;
+  int wrong = 0;
+};
+
+void report(const Setting& setting, const std::string& experiment, const BallThrow& thrown,
+            const BallOutcome& outcome, Output& output, Count& count)
+{
+  ++count.runs;
+  count.wrong += outcome.agrees(thrown) ? 0 : 1;
+  print(setting, thrown, outcome);
+  output.row(columns(setting, experiment, thrown, outcome));
+}
+
+void ballsOn(const Setting& setting, Output& output, Count& count)
 {
   const Simulation hung = hungCloth(setting);
-  int wrong = 0;
   for (std::size_t i = 0; i < THESIS_THROWS.size(); ++i)
   {
-    const BallThrow& thrown = THESIS_THROWS[i];
+    const std::string experiment = std::to_string(i + 1);
     Simulation simulation = hung;
-    const BallOutcome outcome = throwBall(simulation, thrown);
-    wrong += outcome.agrees(thrown) ? 0 : 1;
-    print(setting, thrown, outcome);
-    output.row(columns(setting, i + 1, thrown, outcome));
-    output.snapshot("balls_" + clothName(setting) + "_" + std::to_string(i + 1) + ".obj",
-                    simulation);
+    const BallOutcome outcome = throwBall(simulation, THESIS_THROWS[i]);
+    report(setting, experiment, THESIS_THROWS[i], outcome, output, count);
+    output.snapshot("balls_" + clothName(setting) + "_" + experiment + ".obj", simulation);
   }
-  return wrong;
+
+  Simulation simulation = hung;
+  const std::vector<BallThrow> three(THREE_BALLS.begin(), THREE_BALLS.end());
+  const std::vector<BallOutcome> outcomes = throwBalls(simulation, three, THREE_BALLS_INTERVAL);
+  for (std::size_t i = 0; i < three.size(); ++i)
+  {
+    report(setting, "three", three[i], outcomes[i], output, count);
+  }
+  output.snapshot("balls_" + clothName(setting) + "_three.obj", simulation);
 }
 
 }  // namespace
@@ -79,15 +87,13 @@ int ballsOn(const Setting& setting, Output& output)
 bool balls(const Options& options)
 {
   Output output(options.output, "balls.csv");
-  int wrong = 0;
-  int runs = 0;
+  Count count;
   for (const Setting& setting : options.settings({ 30 }, ALL_MESHES, { 1 }))
   {
-    wrong += ballsOn(setting, output);
-    runs += static_cast<int>(THESIS_THROWS.size());
+    ballsOn(setting, output, count);
   }
-  std::printf("%d of %d as in the thesis\n", runs - wrong, runs);
-  return wrong == 0;
+  std::printf("%d of %d as in the thesis\n", count.runs - count.wrong, count.runs);
+  return count.wrong == 0;
 }
 
 }  // namespace cloth

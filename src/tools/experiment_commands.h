@@ -6,6 +6,10 @@
 namespace cloth
 {
 
-bool balls(const Options& options);  ///< 4.1, figures 4.1 to 4.5
+bool balls(const Options& options);       ///< 4.1, figures 4.1 to 4.5
+bool peaks(const Options& options);       ///< 4.1, where thresholds have to lie
+bool map(const Options& options);         ///< 4.1, radius against speed
+bool variations(const Options& options);  ///< 4.1 with other parameters
+bool nonuniform(const Options& options);  ///< 4.3, half the particles
 
 }  // namespace cloth

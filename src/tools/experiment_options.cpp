@@ -131,6 +131,14 @@ const char* nameOf(SolverKind solver)
   return solver == SolverKind::XPBD ? "xpbd" : "force_springs";
 }
 
+std::string clothName(const Setting& setting)
+{
+  std::string name = nameOf(setting.pattern);
+  name += "_" + std::to_string(setting.resolution);
+  return setting.pattern == RectanglePattern::IRREGULAR ? name + "_" + std::to_string(setting.seed)
+                                                        : name;
+}
+
 std::vector<Setting> Options::settings(const std::vector<int>& default_resolutions,
                                        const std::vector<RectanglePattern>& default_meshes,
                                        const std::vector<int>& default_seeds) const

@@ -39,6 +39,9 @@ Options parseOptions(const std::vector<std::string>& arguments);
 const char* nameOf(RectanglePattern pattern);
 const char* nameOf(SolverKind solver);
 
+/// Mesh, resolution and, where it matters, seed: to name a run or a file.
+std::string clothName(const Setting& setting);
+
 extern const std::vector<RectanglePattern> ALL_MESHES;
 
 }  // namespace cloth

@@ -41,7 +41,11 @@ struct Command
 };
 
 const Command COMMANDS[] = {
-  { "balls", balls, "4.1: five balls; three tear the cloth, two slide off it" },
+  { "balls", balls, "4.1: five balls, three tear the cloth, two slide off; and three small ones" },
+  { "peaks", peaks, "4.1: the strains that balls cause, and the window for a threshold" },
+  { "map", map, "4.1: which radius tears the cloth from which speed on" },
+  { "variations", variations, "4.1: the balls with ten parameters 10 and 20 percent up and down" },
+  { "nonuniform", nonuniform, "4.3: half the particles, fine in the middle, and the time saved" },
 };
 
 void printHelp()
