@@ -2,6 +2,7 @@
 #include "cloth_tearing/experiments/plays.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "cloth_tearing/experiments/ball_experiment.h"
@@ -11,18 +12,22 @@ namespace cloth
 namespace
 {
 
+/// When each ball is in the cloth, and when what it did can be seen [s].
+constexpr std::array<std::array<double, 2>, 5> BALL_MOMENTS = {
+  { { 1.50, 2.30 }, { 1.40, 3.60 }, { 1.30, 2.20 }, { 1.50, 3.90 }, { 0.40, 0.85 } }
+};
+
 void addBalls(std::vector<Play>& plays)
 {
   for (std::size_t i = 0; i < THESIS_THROWS.size(); ++i)
   {
     const BallThrow& thrown = THESIS_THROWS[i];
-    const double arrival = 3.5 / thrown.speed;
     Play play;
     play.name = "balls_" + std::to_string(i + 1);
     play.title = std::string("ball ") + thrown.name;
-    play.moments = { { "before", 0.3 * arrival },
-                     { "during", 1.2 * arrival },
-                     { "after", 2.0 * arrival + 0.5 } };
+    play.moments = { { "before", 1.0 / thrown.speed },
+                     { "during", BALL_MOMENTS[i][0] },
+                     { "after", BALL_MOMENTS[i][1] } };
     play.run = [&thrown](const Setting& setting, const Watch& watch)
     {
       Simulation simulation = hungCloth(setting);

@@ -24,7 +24,7 @@ constexpr double GRASP_AXIS = 0.06;   // length of a drawn grasp frame's axes [m
 
 // Springs from slack to the end of the strain range: dark enough for a light background.
 constexpr std::array<Color, 3> TENSION = {
-  { { 0.55F, 0.66F, 0.84F }, { 0.95F, 0.60F, 0.05F }, { 0.80F, 0.00F, 0.05F } }
+  { { 0.40F, 0.53F, 0.80F }, { 0.95F, 0.55F, 0.00F }, { 0.80F, 0.00F, 0.05F } }
 };
 constexpr double SPRING_WIDTH = 0.5;  // of the width of a torn edge
 

@@ -80,17 +80,19 @@ std::string resolved(const std::string& model_file)
 
 }  // namespace
 
-std::vector<std::string> frameProblems(const std::string& frame_id)
+std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position)
 {
+  std::vector<std::string> found;
   if (frame_id.empty())
   {
-    return { "frame_id is empty, must name a tf frame" };
+    found.push_back("frame_id is empty, must name a tf frame");
   }
-  if (frame_id.front() == '/')
+  else if (frame_id.front() == '/')
   {
-    return { "frame_id is \"" + frame_id + "\", must not begin with a slash" };
+    found.push_back("frame_id is \"" + frame_id + "\", must not begin with a slash");
   }
-  return {};
+  check(found, "cloth_pose/position [m]", position, FARTHEST_ORIGIN);
+  return found;
 }
 
 std::vector<std::string> problems(const MarkerStyle& style)
@@ -115,14 +117,13 @@ std::vector<std::string> problems(const MarkerStyle& style)
 std::vector<std::string> problems(const NodeParams& params)
 {
   std::vector<std::string> found;
-  append(found, "", frameProblems(params.frame_id));
+  append(found, "", placeProblems(params.frame_id, params.cloth_pose.position));
   check(found, "tf_patience [s]", params.tf_patience, Range::between(0.0, 10.0));
   check(found, "command_patience [s]", params.command_patience, Range::between(0.01, 60.0));
   check(found, "marker_rate [Hz]", params.marker_rate, Range::between(0.1, 1000.0));
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
   append(found, "markers/", problems(params.markers));
-  check(found, "cloth_pose/position [m]", params.cloth_pose.position, FARTHEST_ORIGIN);
   if (!params.model_file.empty() && !inPackage(params.model_file) &&
       params.model_file.front() != '/')
   {

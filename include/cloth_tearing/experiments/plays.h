@@ -10,6 +10,16 @@
 namespace cloth
 {
 
+/// Where an experiment is best seen from: on a sphere around what it looks at. The defaults show
+/// all of the thesis' cloth and the balls that come, a little from the side.
+struct Camera
+{
+  double yaw = -2.05;                    ///< of the camera seen from `focus`, about z from x [rad]
+  double pitch = 0.1;                    ///< above the horizon [rad]
+  double distance = 12.8;                ///< [m]
+  Vec3d focus = Vec3d(0.0, -0.5, -4.2);  ///< [m], cloth frame
+};
+
 /// One run of an experiment, for players and pictures.
 struct Play
 {
@@ -23,6 +33,7 @@ struct Play
   std::string name;
   std::string title;
   std::vector<Moment> moments;  ///< in order of time
+  Camera camera = {};
 
   /// Plays it from beginning to end, with the tables' parameters.
   /// @throws what hungCloth() throws, and whatever `watch` throws to end it before

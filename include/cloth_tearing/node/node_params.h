@@ -68,8 +68,8 @@ struct NodeParams
 std::vector<std::string> problems(const NodeParams& params);
 std::vector<std::string> problems(const MarkerStyle& style);
 
-/// Why nothing can be published in `frame_id`; empty if it can.
-std::vector<std::string> frameProblems(const std::string& frame_id);
+/// Everything wrong with where the cloth is: frame_id and cloth_pose/position [m] in it.
+std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position);
 
 /// The simulation's parameters with the floor's height in the cloth frame, whose axes are those of
 /// frame_id and whose origin is cloth_pose.position.
