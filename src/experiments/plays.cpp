@@ -14,7 +14,7 @@ namespace
 
 /// When each ball is in the cloth, and when what it did can be seen [s].
 constexpr std::array<std::array<double, 2>, 5> BALL_MOMENTS = {
-  { { 1.50, 2.30 }, { 1.40, 3.60 }, { 1.30, 2.20 }, { 1.50, 3.90 }, { 0.40, 0.85 } }
+  { { 1.50, 2.30 }, { 1.40, 3.60 }, { 1.30, 2.20 }, { 1.50, 3.90 }, { 0.38, 0.60 } }
 };
 
 void addBalls(std::vector<Play>& plays)
