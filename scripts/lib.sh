@@ -132,3 +132,102 @@ build()
 {
   cmake --build "$build_dir" --parallel "$(nproc)" --target "$@" || fail "the build failed"
 }
+
+# -- showing things on a display of our own ------------------------------------------------------
+
+# From here on, every process started carries a mark in its environment, and so do its children: by
+# it all of them are found, and ended when the script ends.
+stop_all_at_the_end()
+{
+  export CLOTH_TEARING_MARK=$$-$RANDOM-$SECONDS
+  trap stop_all EXIT
+  trap 'exit 130' INT
+  trap 'exit 143' TERM HUP
+}
+
+marked_processes()
+{
+  grep --files-with-matches --null-data --line-regexp --fixed-strings --no-messages \
+    "CLOTH_TEARING_MARK=$CLOTH_TEARING_MARK" /proc/[0-9]*/environ | cut -d / -f 3
+}
+
+wait_for_end()  # of process $1, for $2 seconds
+{
+  timeout "$2" tail --pid="$1" -f /dev/null 2> /dev/null || true
+}
+
+# Ends what was started, in good order first: roslaunch takes its nodes with it.
+stop_all()
+{
+  trap - EXIT INT TERM HUP
+  local pid
+  for pid in "${launch_pid:-}" "${xvfb_pid:-}"; do
+    if [[ -n $pid ]] && kill -TERM "$pid" 2> /dev/null; then
+      wait_for_end "$pid" 30
+    fi
+  done
+  for pid in $(marked_processes); do
+    kill -KILL "$pid" 2> /dev/null || true
+  done
+}
+
+start_xvfb()  # $1: WIDTHxHEIGHT
+{
+  # It finds a free display by itself and tells its number.
+  exec {xvfb_output}< <(exec Xvfb -displayfd 1 -screen 0 "$1x24" -nolisten tcp \
+    2> "$build_dir/xvfb.log")
+  xvfb_pid=$!
+  local number
+  read -r -t 60 -u "$xvfb_output" number ||
+    { cat "$build_dir/xvfb.log" >&2; fail "Xvfb did not start"; }
+  export DISPLAY=:$number LIBGL_ALWAYS_SOFTWARE=1
+}
+
+# Writes what is on the display; again if there is no more on it than a window's frame yet.
+take_picture()  # $1: PNG file
+{
+  local attempt
+  for attempt in 1 2 3 4 5; do
+    import -window root "png:$1" && (($(identify -format %k "$1") > 256)) &&
+      return 0
+    sleep 0.5
+  done
+  say "no picture after $attempt attempts: rviz shows nothing"
+  return 1
+}
+
+# Prints what a viewer wants to know of a line of the log. A message of several lines, as that of a
+# refusal to start, is printed whole: `printing` remembers that the last line belonged to one.
+print_line()  # $1
+{
+  case $1 in
+    'tear '* | 'scene: '* | 'tears: '*) printing= ;;
+    *'process has died'*) printing= ;;
+    *ERROR* | *FATAL*) printing=yes ;;
+    *'['*INFO*']'* | *'['*WARN*']'* | *'['*DEBUG*']'* | '' | '='* | '['*) printing=; return ;;
+    *) [[ -n $printing ]] || return 0 ;;
+  esac
+  printf '%s\n' "$1"
+  [[ $1 != *$'\e[0m' ]] || printing=  # the end of a coloured message
+}
+
+# Plays a launch file to its end, writes what it says to a log and prints of it what a viewer wants
+# to know; each line is handed to a function.
+follow_launch()  # $1: deadline [s]; $2: log; $3: function; then the launch file and its arguments
+{
+  local deadline=$((SECONDS + $1)) log=$2 on_line=$3 line
+  shift 3
+  printing=
+  : > "$log"
+  exec {launch_output}< <(exec "$build_dir/devel/env.sh" roslaunch cloth_tearing "$@" 2>&1)
+  launch_pid=$!
+  while ((SECONDS < deadline)) &&
+    read -r -t "$((deadline - SECONDS))" -u "$launch_output" line; do
+    printf '%s\n' "$line" >> "$log"
+    print_line "$line"
+    "$on_line" "$line"
+  done
+  ((SECONDS < deadline)) || fail "it did not end in time; $log has what was said"
+  exec {launch_output}<&-
+  launch_pid=
+}

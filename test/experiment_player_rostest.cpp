@@ -199,9 +199,20 @@ TEST_F(ExperimentPlayer, ShowsTheEndToThoseWhoComeLate)
   EXPECT_EQ(lists, 1);
 }
 
-TEST_F(ExperimentPlayer, EndsAtOnceWhenItIsInterrupted)
+TEST_F(ExperimentPlayer, EndsInTheMiddleWhenItIsInterrupted)
 {
   ros::param::set(NODE + "/pace", "wall");
+  ChildProcess process = player();
+  ASSERT_TRUE(process.says("tear 1 "));
+
+  process.signal(SIGINT);
+
+  EXPECT_TRUE(process.says("ended before its end"));
+  EXPECT_EQ(process.exitStatus(), 0);
+}
+
+TEST_F(ExperimentPlayer, EndsWithinAPauseWhenItIsInterrupted)
+{
   ros::param::set(NODE + "/stop_at_moments", true);
   ros::param::set(NODE + "/picture_pause", 600.0);
   ChildProcess process = player();
