@@ -87,9 +87,9 @@ const std::array<BallThrow, 5> THESIS_THROWS = { {
 } };
 
 const std::array<BallThrow, 3> THREE_BALLS = { {
-    { "figure 4.1, left", 0.5, 3.0, 0.68, true, -1.7 },
-    { "figure 4.1, right", 0.5, 3.0, 0.60, true, 1.7 },
-    { "figure 4.1, middle", 0.5, 3.0, 0.68, true, 0.03 },
+    { "figure 4.1, middle", 0.5, 3.0, 0.60, true, 0.03 },
+    { "figure 4.1, left", 0.5, 3.0, 0.66, true, -1.5 },
+    { "figure 4.1, right", 0.5, 3.0, 0.66, true, 1.5 },
 } };
 
 std::vector<BallOutcome> throwBalls(Simulation& simulation, const std::vector<BallThrow>& throws,

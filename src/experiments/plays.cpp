@@ -14,7 +14,7 @@ namespace
 
 /// When each ball is in the cloth, and when what it did can be seen [s].
 constexpr std::array<std::array<double, 2>, 5> BALL_MOMENTS = {
-  { { 1.50, 2.30 }, { 1.40, 3.60 }, { 1.30, 2.20 }, { 1.50, 3.90 }, { 0.38, 0.60 } }
+  { { 1.60, 3.20 }, { 1.40, 3.60 }, { 1.60, 2.20 }, { 1.50, 3.90 }, { 0.45, 0.75 } }
 };
 
 void addBalls(std::vector<Play>& plays)
@@ -37,10 +37,25 @@ void addBalls(std::vector<Play>& plays)
   }
 }
 
+void addThreeBalls(std::vector<Play>& plays)
+{
+  Play play;
+  play.name = "balls_three";
+  play.title = "three small balls, figure 4.1";
+  play.moments = { { "before", 1.6 }, { "during", 4.1 }, { "after", 8.0 } };
+  play.run = [](const Setting& setting, const Watch& watch)
+  {
+    Simulation simulation = hungCloth(setting);
+    throwBalls(simulation, { THREE_BALLS.begin(), THREE_BALLS.end() }, THREE_BALLS_INTERVAL, watch);
+  };
+  plays.push_back(play);
+}
+
 std::vector<Play> makePlays()
 {
   std::vector<Play> plays;
   addBalls(plays);
+  addThreeBalls(plays);
   return plays;
 }
 

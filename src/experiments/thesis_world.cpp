@@ -36,7 +36,7 @@ SimulationParams thesisParams(const Setting& setting)
   rules.tear_strain = 0.145;
   rules.weak_tear_strain = 0.126;
   rules.one_point_tear_strain = 0.126;
-  rules.crack_length = 0.18;
+  rules.crack_length = 0.8;
   rules.hem_factor = 2.0;
   rules.hem_width = 0.6;
   if (setting.solver == SolverKind::FORCE_SPRINGS)

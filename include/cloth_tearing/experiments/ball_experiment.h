@@ -26,7 +26,7 @@ extern const std::array<BallThrow, 5> THESIS_THROWS;
 
 /// Figure 4.1 itself: three small balls, to be thrown THREE_BALLS_INTERVAL apart.
 extern const std::array<BallThrow, 3> THREE_BALLS;
-constexpr double THREE_BALLS_INTERVAL = 0.8;  ///< [s]
+constexpr double THREE_BALLS_INTERVAL = 2.5;  ///< [s]
 
 /// Where a ball's centre starts in front of the cloth [m].
 constexpr double BALL_START = 3.5;
