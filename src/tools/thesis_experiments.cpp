@@ -46,6 +46,8 @@ const Command COMMANDS[] = {
   { "map", map, "4.1: which radius tears the cloth from which speed on" },
   { "variations", variations, "4.1: the balls with ten parameters 10 and 20 percent up and down" },
   { "nonuniform", nonuniform, "4.3: half the particles, fine in the middle, and the time saved" },
+  { "direction", direction, "4.2: the crack opens across the pull, the flap hangs along it" },
+  { "trouser", trouser, "4.2: legs pulled apart; the tear runs on along the cut; the force" },
 };
 
 void printHelp()
