@@ -99,6 +99,112 @@ TEST(Step, ReportsTheLargestStrain)
   EXPECT_EQ(simulation.summary().max_strain, most);
 }
 
+class Detection : public WithBothSolvers
+{
+};
+INSTANTIATE_TEST_SUITE_P(Step, Detection, bothSolvers(), solverName);
+
+TEST_P(Detection, FindsAmongTheSpringsNearATearWhatALookAtAllOfThemFinds)
+{
+  SimulationParams params = tearable(GetParam());
+  params.solver.max_substeps = 64;
+  Simulation quick = hanging(params);
+  Simulation thorough = hanging(params);
+  ThrowRequest far_away;  // where there is something to strike, every spring is looked at
+  far_away.center = Vec3d(0, 40, 0);
+  thorough.throwSphere(far_away);
+  pullDown(quick);
+  pullDown(thorough);
+
+  const std::vector<TearEvent> found = run(quick, 1500);
+  const std::vector<TearEvent> expected = run(thorough, 1500);
+
+  EXPECT_GT(expected.size(), 5u);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    EXPECT_EQ(found[i].step, expected[i].step) << i;
+    EXPECT_EQ(found[i].spring, expected[i].spring) << i;
+    EXPECT_EQ(found[i].strain, expected[i].strain) << i;
+  }
+  EXPECT_EQ(quick.cloth().state.position, thorough.cloth().state.position);
+}
+
+TEST(DetectionOfTears, FollowsAThresholdThatIsLowered)
+{
+  SimulationParams params = tearable();
+  params.tearing.tear_strain = 2.0;
+  params.tearing.weak_tear_strain = 2.0;
+  params.tearing.one_point_tear_strain = 2.0;
+  Simulation simulation = hanging(params);
+  pullDown(simulation, 0.2);
+  EXPECT_TRUE(run(simulation, 300).empty());
+
+  simulation.setTearRules(tearable().tearing);
+
+  EXPECT_FALSE(run(simulation, 10).empty());
+}
+
+TEST(DetectionOfTears, WorksAfterAReset)
+{
+  Simulation simulation = torn();
+  simulation.reset();
+  pullDown(simulation);
+  EXPECT_GT(run(simulation, 800).size(), 5u);
+}
+
+/// Keeps what it is told.
+class Notes : public StepObserver
+{
+public:
+  void enter(StepPhase phase) override { phases.push_back(phase); }
+  std::vector<StepPhase> phases;
+};
+
+TEST(StepObserver, IsToldOfEachPhaseInOrder)
+{
+  Simulation simulation = hanging(tearable());
+  Notes notes;
+
+  simulation.step(&notes);
+
+  ASSERT_EQ(notes.phases.size(), static_cast<std::size_t>(STEP_PHASES) + 1);
+  for (int i = 0; i <= STEP_PHASES; ++i)
+  {
+    EXPECT_EQ(notes.phases[i], static_cast<StepPhase>(i));
+  }
+}
+
+TEST(StepObserver, IsToldThatAnUndoneStepEndsAfterItsCheck)
+{
+  SimulationParams params = untearable();
+  params.max_speed = 1e-6;
+  Simulation simulation = hanging(params);
+  Notes notes;
+
+  EXPECT_FALSE(simulation.step(&notes).fault.empty());
+
+  ASSERT_GE(notes.phases.size(), 2u);
+  EXPECT_EQ(notes.phases[notes.phases.size() - 2], StepPhase::CHECK);
+  EXPECT_EQ(notes.phases.back(), StepPhase::END);
+}
+
+TEST(StepObserver, ChangesNothing)
+{
+  Simulation watched = hanging(tearable());
+  Simulation alone = watched;
+  pullDown(watched);
+  pullDown(alone);
+  Notes notes;
+  for (int i = 0; i < 500; ++i)
+  {
+    watched.step(&notes);
+    alone.step();
+  }
+  EXPECT_GT(watched.revision(), 0u);
+  EXPECT_EQ(watched.stateHash(), alone.stateHash());
+}
+
 TEST(Tearing, ConservesMassAreaAndTexture)
 {
   const Simulation whole = hanging(tearable());

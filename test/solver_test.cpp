@@ -581,5 +581,51 @@ TEST(SolverParams, AreRefusedByNameBeyondTheirLimits)
   EXPECT_TRUE(problems(SolverParams()).empty());
 }
 
+class Springs : public WithBothSolvers
+{
+};
+INSTANTIATE_TEST_SUITE_P(Solver, Springs, bothSolvers(), solverName);
+
+TEST_P(Springs, AreNotedThatBeginTheStepStretched)
+{
+  const ClothModel model = sheet(1.0, 1.0, 12, 12);
+  SimulationParams params = vacuum(GetParam());
+  Simulation simulation(model, {}, params);
+  setVelocities(simulation, stirred(model));
+  run(simulation, 200);
+  Cloth cloth = simulation.cloth();
+  cloth.springs.release({ 5 });
+  std::vector<double> strains;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    strains.push_back(cloth.strain({ i }));
+  }
+  std::vector<double> sorted = strains;
+  std::sort(sorted.begin(), sorted.end());
+  std::size_t above = sorted.size() / 2;  // amid the widest gap of the longer half: no tie
+  for (std::size_t i = above; i < sorted.size(); ++i)
+  {
+    above = sorted[i] - sorted[i - 1] > sorted[above] - sorted[above - 1] ? i : above;
+  }
+  const double limit = 0.5 * (sorted[above] + sorted[above - 1]);
+  std::vector<int> expected;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    if (strains[i] > limit && i != 5)
+    {
+      expected.push_back(i);
+    }
+  }
+  const auto solver = makeSolver(params.solver);
+  solver->checkStability(cloth.state, cloth.springs, 0.001, 0.0);
+  cloth.state.previous = cloth.state.position;
+
+  solver->watch(limit);
+  solver->advance(cloth.state, cloth.springs, std::vector<Vec3>(cloth.state.size(), Vec3::Zero()),
+                  0.001);
+
+  EXPECT_EQ(solver->stretched(), expected);
+}
+
 }  // namespace
 }  // namespace cloth

@@ -153,6 +153,23 @@ TEST(Scan, FindsNothingWhileTearingIsSwitchedOff)
   EXPECT_NEAR(pass.max_strain, 2.0, 1e-6);
 }
 
+TEST(Scan, OfSomeSpringsReadsNoOthers)
+{
+  Cloth cloth = kites(3);
+  stretchKite(cloth, 0, 1.55);
+  stretchKite(cloth, 2, 1.6);
+  Tearing tearing(rulesOfTheThesis());
+  std::vector<Grasp> grasps;
+  int postponed = 0;
+
+  EXPECT_NEAR(tearing.scan(cloth, { sharedSpring(cloth, 0).index }), 0.55, 1e-6);
+  const auto tears = tearing.tear(
+      cloth, grasps, [](const Vec3&) { return false; }, postponed);
+
+  ASSERT_EQ(tears.size(), 1u);
+  EXPECT_EQ(tears[0].spring, sharedSpring(kites(3), 0));
+}
+
 TEST(Scan, AgreesWithTheWorstReading)
 {
   const ClothModel model = sheet(8, 8, RectanglePattern::IRREGULAR);

@@ -25,15 +25,20 @@ std::unique_ptr<Solver> ForceSprings::clone() const
   return std::make_unique<ForceSprings>(*this);
 }
 
-void ForceSprings::addForces(const ParticleState& state, const std::vector<SpringLaw>& springs)
+/// @param see told of each spring's index and the vector between its ends
+template <class See>
+void ForceSprings::addForces(const ParticleState& state, const std::vector<SpringLaw>& springs,
+                             const See& see)
 {
-  for (const SpringLaw& spring : springs)
+  for (std::size_t i = 0; i < springs.size(); ++i)
   {
+    const SpringLaw& spring = springs[i];
     if (!spring.active())
     {
       continue;
     }
     const Vec3 d = state.position[spring.b] - state.position[spring.a];
+    see(i, d);
     const Real length = std::sqrt(d.squaredNorm());
     if (!(length > 0))
     {
@@ -51,11 +56,22 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
                            const std::vector<Vec3>& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt / substeps_);
+  const auto unseen = [](std::size_t, const Vec3&) {};
+  const auto seen = [&](std::size_t i, const Vec3& along)
+  { note(i, springs.structural[i].rest, along); };
+  clearNotes(springs.structural.size());
   for (int substep = 0; substep < substeps_; ++substep)
   {
     force_.assign(state.size(), Vec3::Zero());
-    addForces(state, springs.structural);
-    addForces(state, springs.bend_shear);
+    if (substep == 0)
+    {
+      addForces(state, springs.structural, seen);
+    }
+    else
+    {
+      addForces(state, springs.structural, unseen);
+    }
+    addForces(state, springs.bend_shear, unseen);
     for (int i = 0; i < state.size(); ++i)
     {
       if (state.inverse_mass[i] > 0)

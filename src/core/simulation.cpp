@@ -31,6 +31,10 @@ constexpr double SOFT = 4.0;
 /// 30 x 30 and 60 x 60 particles hold at 0.7 and tear by their own weight at 0.95.
 constexpr double LARGEST_SAG = 0.5;
 
+/// Springs that begin a step above this part of the least threshold are looked at in its end [-].
+/// One that makes the rest of the way within a step is found in the end of the next.
+constexpr double NEAR = 0.5;
+
 /// How far the cloth reaches: the diagonal of the box around it [m].
 double reachOf(const Cloth& cloth)
 {
@@ -69,6 +73,27 @@ void checkAir(std::vector<std::string>& found, const SimulationParams& params)
   }
 }
 
+/// Tells the observer, if there is one; in the end that the step is over.
+class PhaseMarker
+{
+public:
+  explicit PhaseMarker(StepObserver* observer) : observer_(observer) {}
+  ~PhaseMarker() { (*this)(StepPhase::END); }
+  PhaseMarker(const PhaseMarker&) = delete;
+  PhaseMarker& operator=(const PhaseMarker&) = delete;
+
+  void operator()(StepPhase phase) const
+  {
+    if (observer_ != nullptr)
+    {
+      observer_->enter(phase);
+    }
+  }
+
+private:
+  StepObserver* observer_;
+};
+
 const SimulationParams& checked(const SimulationParams& params)
 {
   refuseIf(problems(params));
@@ -102,6 +127,7 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
     , solver_(params.solver)
     , tearing_(params.tearing)
 {
+  watchSprings();
   stability_ = findStability();
   start_stability_ = stability_;
   if (stability_.floored > 0)
@@ -154,29 +180,37 @@ std::vector<std::string> Simulation::startNotes() const
   return notes;
 }
 
-StepReport Simulation::step()
+StepReport Simulation::step(StepObserver* observer)
 {
   const FlushSubnormals fast;
+  const PhaseMarker enter{ observer };
   const double dt = params_.solver.time_step;
   StepReport report;
+  enter(StepPhase::CARRY);
   remember();
   for (Grasp& grasp : grasps_)
   {
     carry(grasp, cloth_.state, dt);  // held particles follow their grippers
   }
+  enter(StepPhase::ADVANCE);
   outerAccelerations(cloth_, params_.environment, acceleration_);  // gravity, air, wind (2.1.1)
   solver_->advance(cloth_.state, cloth_.springs, acceleration_, dt);
+  enter(StepPhase::LIMIT);
   solver_->limitStrain(cloth_.state, cloth_.springs);  // woven cloth hardly stretches (2.1.1)
+  enter(StepPhase::CONTACT);
   moveSpheres(spheres_, params_.contact, params_.environment, dt);
   contact_.resolve(cloth_, spheres_, params_.contact, dt);  // spheres push the cloth (4.1)
 
-  report.max_strain = tearing_.scan(cloth_);
+  enter(StepPhase::DETECT);
+  report.max_strain = scan();
+  enter(StepPhase::CHECK);
   report.fault = findFault(report.max_strain);
   if (!report.fault.empty())
   {
     undo();
     return report;
   }
+  enter(StepPhase::EDIT);
   ++step_;
   report.tears = tearing_.tear(
       cloth_, grasps_,
@@ -192,6 +226,19 @@ StepReport Simulation::step()
     restLoosePieces(report.notes);
   }
   return report;
+}
+
+double Simulation::scan()
+{
+  // A push may overstretch a slack spring in one step: then look at all.
+  const bool pushed = !spheres_.empty() || params_.contact.floor;
+  return pushed || !params_.tearing.enabled ? tearing_.scan(cloth_)
+                                            : tearing_.scan(cloth_, solver_->stretched());
+}
+
+void Simulation::watchSprings()
+{
+  solver_->watch(NEAR * std::min(tearing_.leastThreshold(), params_.runaway_strain));
 }
 
 void Simulation::remember()
@@ -356,6 +403,7 @@ void Simulation::reset()
 {
   cloth_ = untorn_;
   solver_ = SolverHandle(params_.solver);
+  watchSprings();
   stability_ = findStability();
   grasps_.clear();
   spheres_.clear();
@@ -584,6 +632,7 @@ void Simulation::setTearRules(const TearRules& rules)
   refuseTooSoft(rules);
   params_.tearing = rules;
   tearing_ = Tearing(rules);
+  watchSprings();
 }
 
 std::vector<TearEvent> Simulation::tearsSince(std::uint64_t first, std::size_t most) const

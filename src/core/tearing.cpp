@@ -12,6 +12,9 @@ namespace
 /// How far a one-point tear may shift its copy, as a fraction of the rest length (3.2.3).
 constexpr double LARGEST_SHIFT = 0.25;
 
+/// Lengths in Real are taken for a little longer than they are: rounding must not hide a spring.
+constexpr double ROUNDING = 1.0 - 1e-5;
+
 bool worseFirst(const TearReading& a, const TearReading& b)
 {
   return a.utilisation() != b.utilisation() ? a.utilisation() > b.utilisation()
@@ -169,29 +172,53 @@ TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
   return reading;
 }
 
+double Tearing::leastThreshold() const
+{
+  return std::min({ rules_.tear_strain, rules_.weak_tear_strain, rules_.onePointThreshold() });
+}
+
+void Tearing::look(const Cloth& cloth, SpringId s, double& most)
+{
+  const double own = cloth.strain(s);
+  most = own > most || !(own == own) ? own : most;  // a NaN must not hide
+  if (rules_.enabled && own > leastThreshold())
+  {
+    const TearReading reading = read(cloth, s, own);
+    if (reading.utilisation() > 1.0)
+    {
+      found_.push_back(reading);
+    }
+  }
+}
+
 double Tearing::scan(const Cloth& cloth)
 {
-  const double least =
-      std::min({ rules_.tear_strain, rules_.weak_tear_strain, rules_.onePointThreshold() });
   found_.clear();
+  const auto& x = cloth.state.position;
   double most = 0.0;
+  const double least = leastThreshold();
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
   {
-    if (!cloth.springs.structural[i].active())
+    const SpringLaw& law = cloth.springs.structural[i];
+    const auto bound = static_cast<Real>(ROUNDING * (1.0 + std::min(most, least)));
+    // Squares tell which springs are worth a closer look; a NaN is.
+    if (law.active() &&
+        !((x[law.b] - x[law.a]).squaredNorm() <= (bound * law.rest) * (bound * law.rest)))
     {
-      continue;
+      look(cloth, { i }, most);
     }
-    const SpringId s{ i };
-    const double own = cloth.strain(s);
-    most = own > most || !(own == own) ? own : most;  // a NaN must not hide
-    if (rules_.enabled && own > least)
-    {
-      const TearReading reading = read(cloth, s, own);
-      if (reading.utilisation() > 1.0)
-      {
-        found_.push_back(reading);
-      }
-    }
+  }
+  std::sort(found_.begin(), found_.end(), worseFirst);
+  return most;
+}
+
+double Tearing::scan(const Cloth& cloth, const std::vector<int>& springs)
+{
+  found_.clear();
+  double most = 0.0;
+  for (int i : springs)
+  {
+    look(cloth, { i }, most);
   }
   std::sort(found_.begin(), found_.end(), worseFirst);
   return most;

@@ -10,11 +10,14 @@ namespace
 
 /// Moves `displacement`, the way of each particle since the start of the step. Lengths and speeds
 /// come from ways, not from differences of places: these are too coarse for a short step.
+/// @param see told of each spring's index and the vector between its ends when the step began
+template <class See>
 void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Real dt,
-           std::vector<Vec3>& displacement)
+           std::vector<Vec3>& displacement, const See& see)
 {
-  for (const SpringLaw& spring : springs)
+  for (std::size_t i = 0; i < springs.size(); ++i)
   {
+    const SpringLaw& spring = springs[i];
     if (!spring.active())
     {
       continue;
@@ -25,7 +28,9 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     Vec3& a = displacement[spring.a];
     Vec3& b = displacement[spring.b];
     const Vec3 moved = b - a;
-    const Vec3 d = (state.previous[spring.b] - state.previous[spring.a]) + moved;
+    const Vec3 before = state.previous[spring.b] - state.previous[spring.a];
+    see(i, before);
+    const Vec3 d = before + moved;
     const Real length = std::sqrt(d.squaredNorm());
     if (!(w > 0) || !(length > 0))
     {
@@ -60,8 +65,10 @@ void XpbdSolver::advance(ParticleState& state, const SpringTable& springs,
                            ? Vec3(h * (state.velocity[i] + h * acceleration[i]))
                            : Vec3(state.position[i] - state.previous[i]);
   }
-  solve(state, springs.structural, h, displacement_);
-  solve(state, springs.bend_shear, h, displacement_);
+  clearNotes(springs.structural.size());
+  solve(state, springs.structural, h, displacement_,
+        [&](std::size_t i, const Vec3& before) { note(i, springs.structural[i].rest, before); });
+  solve(state, springs.bend_shear, h, displacement_, [](std::size_t, const Vec3&) {});
   for (int i = 0; i < state.size(); ++i)
   {
     if (state.inverse_mass[i] > 0)

@@ -24,7 +24,8 @@ public:
                            double air_rate) override;
 
 private:
-  void addForces(const ParticleState& state, const std::vector<SpringLaw>& springs);
+  template <class See>
+  void addForces(const ParticleState& state, const std::vector<SpringLaw>& springs, const See& see);
   void sumStiffness(const ParticleState& state, const SpringTable& springs);
 
   SolverParams params_;

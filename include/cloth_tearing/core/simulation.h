@@ -18,6 +18,7 @@
 #include "cloth_tearing/core/rest_shape.h"
 #include "cloth_tearing/core/solver.h"
 #include "cloth_tearing/core/sphere_contact.h"
+#include "cloth_tearing/core/step_observer.h"
 #include "cloth_tearing/core/surface.h"
 #include "cloth_tearing/core/tear_event.h"
 #include "cloth_tearing/core/tear_rules.h"
@@ -69,8 +70,9 @@ struct ThrowRequest
 struct StepReport
 {
   std::vector<TearEvent> tears;
-  int postponed = 0;               ///< springs that must wait for the next step to tear
-  double max_strain = 0.0;         ///< of springs that carry load, after contact [-]
+  int postponed = 0;        ///< springs that must wait for the next step to tear
+  double max_strain = 0.0;  ///< of springs that carry load, after contact; 0 if tearing is on and
+                            ///< none was near a threshold when the step began [-]
   std::vector<std::string> notes;  ///< what its users should know: a piece put to rest, substeps
   std::string fault;  ///< why the step was undone and the run must pause; empty if all is well
 };
@@ -109,7 +111,8 @@ public:
              const SimulationParams& params);
 
   /// One tick of params().solver.time_step (design: carry, advance, limit, contact, tear).
-  StepReport step();
+  /// @param observer told where the tick is; may be null
+  StepReport step(StepObserver* observer = nullptr);
 
   /// Back to the beginning: the cloth as built, no grasps, no spheres. The epoch rises by one;
   /// time, tear numbers and the log go on.
@@ -174,6 +177,8 @@ private:
     std::vector<Sphere> spheres;
   };
 
+  void watchSprings();
+  double scan();
   void remember();
   void undo();
   std::string findFault(double max_strain) const;

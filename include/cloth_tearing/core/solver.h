@@ -1,6 +1,7 @@
 // How a step of time moves the cloth: one interface, two solvers.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,13 @@ public:
   /// Not every solver needs it.
   virtual void limitStrain(ParticleState& /*state*/, const SpringTable& /*springs*/) {}
 
+  /// From now on advance() notes every structural spring that is stretched by more than `strain`
+  /// [-] when the step begins. It sees all lengths anyway: nobody else need measure them again.
+  void watch(double strain) { watched_ = static_cast<Real>((1.0 + strain) * (1.0 + strain)); }
+
+  /// What the last advance() noted: indices of springs, ascending.
+  const std::vector<int>& stretched() const { return stretched_; }
+
   /// What it takes to stay stable at a step of `dt` [s] in air that brakes by `air_rate` [1/s]; to
   /// be asked anew after each tear, which makes lighter particles. The solver keeps to the answer
   /// from then on. By default it is stable at any step.
@@ -68,6 +76,31 @@ public:
   {
     return 0.0;
   }
+
+protected:
+  /// Before the notes of a step of so many springs: makes room, so that steady steps do not
+  /// allocate.
+  void clearNotes(std::size_t springs)
+  {
+    stretched_.clear();
+    if (stretched_.capacity() < springs)
+    {
+      stretched_.reserve(2 * springs);
+    }
+  }
+
+  /// Notes a spring if it is long; `along` is the vector between its ends [m].
+  void note(std::size_t spring, Real rest, const Vec3& along)
+  {
+    if (!(along.squaredNorm() <= watched_ * (rest * rest)))  // a NaN must not hide
+    {
+      stretched_.push_back(static_cast<int>(spring));
+    }
+  }
+
+private:
+  std::vector<int> stretched_;
+  Real watched_ = std::numeric_limits<Real>::max();  ///< squared length over squared rest length
 };
 
 std::unique_ptr<Solver> makeSolver(const SolverParams& params);

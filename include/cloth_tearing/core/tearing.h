@@ -38,6 +38,12 @@ public:
   /// @return the largest strain of a spring that carries load [-]
   double scan(const Cloth& cloth);
 
+  /// The same, if only `springs`, which carry load, can be over a threshold; the rest is not read.
+  double scan(const Cloth& cloth, const std::vector<int>& springs);
+
+  /// Nothing tears at a smaller strain [-].
+  double leastThreshold() const;
+
   /// Tears what scan() found. Looks at each again first, since an earlier tear may have relieved
   /// it; what touches a particle of an earlier tear waits for the next step.
   ///
@@ -65,6 +71,7 @@ private:
   double crackBand(const Cloth& cloth, SpringId s) const;
   std::vector<Option> options(const Cloth& cloth, SpringId s) const;
   TearReading read(const Cloth& cloth, SpringId s, double own);
+  void look(const Cloth& cloth, SpringId s, double& most);
 
   bool touched(const Cloth& cloth, SpringId s) const;
   bool tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, const Blocked& blocked,
