@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cloth_tearing/experiments/thesis_world.h"
 #include "cloth_tearing/node/params_loader.h"
 
 namespace
@@ -162,31 +163,35 @@ TEST(ThesisYaml, IsTheClothOfChapter4)
     ADD_FAILURE() << problem;
   }
 
+  const cloth::Setting setting;  // the experiments' own, to which the file has to be equal
   const cloth::RectangleParams& sheet = loaded.params.rectangle;
-  EXPECT_EQ(sheet.width, 6.0);
-  EXPECT_EQ(sheet.height, 8.0);
-  EXPECT_EQ(sheet.columns, 30);
-  EXPECT_EQ(sheet.rows, 30);
+  const cloth::RectangleParams thesis_sheet = cloth::thesisSheet(setting);
+  EXPECT_EQ(sheet.width, thesis_sheet.width);
+  EXPECT_EQ(sheet.height, thesis_sheet.height);
+  EXPECT_EQ(sheet.columns, thesis_sheet.columns);
+  EXPECT_EQ(sheet.rows, thesis_sheet.rows);
   EXPECT_EQ(loaded.params.pins.edges, std::vector<std::string>{ "top" });
 
   const cloth::SimulationParams& physics = loaded.params.simulation;
-  EXPECT_EQ(physics.solver.time_step, 0.001);
-  EXPECT_EQ(physics.material.areal_density, 0.1);
-  EXPECT_EQ(physics.material.stiffness, 150.0);
-  EXPECT_EQ(physics.material.bend_shear_stiffness, 30.0);
-  EXPECT_EQ(physics.material.damping, 0.02);
-  EXPECT_EQ(physics.environment.gravity, cloth::Vec3d(0.0, 0.0, -9.8));
-  EXPECT_EQ(physics.environment.air_friction, 0.4);
-  EXPECT_EQ(physics.environment.wind_drag, 0.0);
-  EXPECT_EQ(physics.contact.friction, 0.0);
-  EXPECT_EQ(physics.contact.thickness, 0.01);
-  EXPECT_EQ(physics.tearing.tear_strain, 0.145);
-  EXPECT_EQ(physics.tearing.weak_tear_strain, 0.126);
-  EXPECT_EQ(physics.tearing.onePointThreshold(), 0.126);
-  EXPECT_EQ(physics.tearing.tear_radius, 0.3);
-  EXPECT_EQ(physics.tearing.crack_length, 0.18);
-  EXPECT_EQ(physics.tearing.hem_factor, 2.0);
-  EXPECT_EQ(physics.tearing.hem_width, 0.6);
+  const cloth::SimulationParams thesis = cloth::thesisParams(setting);
+  EXPECT_EQ(physics.solver.time_step, thesis.solver.time_step);
+  EXPECT_EQ(physics.material.areal_density, thesis.material.areal_density);
+  EXPECT_EQ(physics.material.stiffness_law, thesis.material.stiffness_law);
+  EXPECT_EQ(physics.material.stiffness, thesis.material.stiffness);
+  EXPECT_EQ(physics.material.bend_shear_stiffness, thesis.material.bend_shear_stiffness);
+  EXPECT_EQ(physics.material.damping, thesis.material.damping);
+  EXPECT_EQ(physics.environment.gravity, thesis.environment.gravity);
+  EXPECT_EQ(physics.environment.air_friction, thesis.environment.air_friction);
+  EXPECT_EQ(physics.environment.wind_drag, thesis.environment.wind_drag);
+  EXPECT_EQ(physics.contact.friction, thesis.contact.friction);
+  EXPECT_EQ(physics.contact.thickness, thesis.contact.thickness);
+  EXPECT_EQ(physics.tearing.tear_strain, thesis.tearing.tear_strain);
+  EXPECT_EQ(physics.tearing.weak_tear_strain, thesis.tearing.weak_tear_strain);
+  EXPECT_EQ(physics.tearing.onePointThreshold(), thesis.tearing.onePointThreshold());
+  EXPECT_EQ(physics.tearing.tear_radius, thesis.tearing.tear_radius);
+  EXPECT_EQ(physics.tearing.crack_length, thesis.tearing.crack_length);
+  EXPECT_EQ(physics.tearing.hem_factor, thesis.tearing.hem_factor);
+  EXPECT_EQ(physics.tearing.hem_width, thesis.tearing.hem_width);
 }
 
 int main(int argc, char** argv)
