@@ -25,7 +25,7 @@ std::unique_ptr<Solver> ForceSprings::clone() const
   return std::make_unique<ForceSprings>(*this);
 }
 
-/// @param see told of each spring's index and the vector between its ends
+/// @param see told of each spring's index and its squared length
 template <class See>
 void ForceSprings::addForces(const ParticleState& state, const std::vector<SpringLaw>& springs,
                              const See& see)
@@ -38,8 +38,9 @@ void ForceSprings::addForces(const ParticleState& state, const std::vector<Sprin
       continue;
     }
     const Vec3 d = state.position[spring.b] - state.position[spring.a];
-    see(i, d);
-    const Real length = std::sqrt(d.squaredNorm());
+    const Real squared = d.squaredNorm();
+    see(i, squared);
+    const Real length = std::sqrt(squared);
     if (!(length > 0))
     {
       continue;
@@ -56,9 +57,9 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
                            const std::vector<Vec3>& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt / substeps_);
-  const auto unseen = [](std::size_t, const Vec3&) {};
-  const auto seen = [&](std::size_t i, const Vec3& along)
-  { note(i, springs.structural[i].rest, along); };
+  const auto unseen = [](std::size_t, Real) {};
+  const auto seen = [&](std::size_t i, Real squared)
+  { note(i, springs.structural[i].rest, squared); };
   clearNotes(springs.structural.size());
   for (int substep = 0; substep < substeps_; ++substep)
   {

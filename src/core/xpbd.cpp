@@ -10,7 +10,8 @@ namespace
 
 /// Moves `displacement`, the way of each particle since the start of the step. Lengths and speeds
 /// come from ways, not from differences of places: these are too coarse for a short step.
-/// @param see told of each spring's index and the vector between its ends when the step began
+/// @param see told of each spring's index and its squared length, when the step began or when its
+/// turn came, whichever was longer
 template <class See>
 void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Real dt,
            std::vector<Vec3>& displacement, const See& see)
@@ -29,9 +30,10 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     Vec3& b = displacement[spring.b];
     const Vec3 moved = b - a;
     const Vec3 before = state.previous[spring.b] - state.previous[spring.a];
-    see(i, before);
     const Vec3 d = before + moved;
-    const Real length = std::sqrt(d.squaredNorm());
+    const Real squared = d.squaredNorm();
+    see(i, std::max(before.squaredNorm(), squared));
+    const Real length = std::sqrt(squared);
     if (!(w > 0) || !(length > 0))
     {
       continue;
@@ -67,8 +69,8 @@ void XpbdSolver::advance(ParticleState& state, const SpringTable& springs,
   }
   clearNotes(springs.structural.size());
   solve(state, springs.structural, h, displacement_,
-        [&](std::size_t i, const Vec3& before) { note(i, springs.structural[i].rest, before); });
-  solve(state, springs.bend_shear, h, displacement_, [](std::size_t, const Vec3&) {});
+        [&](std::size_t i, Real squared) { note(i, springs.structural[i].rest, squared); });
+  solve(state, springs.bend_shear, h, displacement_, [](std::size_t, Real) {});
   for (int i = 0; i < state.size(); ++i)
   {
     if (state.inverse_mass[i] > 0)

@@ -53,7 +53,8 @@ public:
   virtual void limitStrain(ParticleState& /*state*/, const SpringTable& /*springs*/) {}
 
   /// From now on advance() notes every structural spring that is stretched by more than `strain`
-  /// [-] when the step begins. It sees all lengths anyway: nobody else need measure them again.
+  /// [-] when the step begins, and may note others that are later in the step. It sees all lengths
+  /// anyway: nobody else need measure them again.
   void watch(double strain) { watched_ = static_cast<Real>((1.0 + strain) * (1.0 + strain)); }
 
   /// What the last advance() noted: indices of springs, ascending.
@@ -89,10 +90,10 @@ protected:
     }
   }
 
-  /// Notes a spring if it is long; `along` is the vector between its ends [m].
-  void note(std::size_t spring, Real rest, const Vec3& along)
+  /// Notes a spring if it is long; `squared` is its squared length [m^2].
+  void note(std::size_t spring, Real rest, Real squared)
   {
-    if (!(along.squaredNorm() <= watched_ * (rest * rest)))  // a NaN must not hide
+    if (!(squared <= watched_ * (rest * rest)))  // a NaN must not hide
     {
       stretched_.push_back(static_cast<int>(spring));
     }
