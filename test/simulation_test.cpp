@@ -205,6 +205,34 @@ TEST(StepObserver, ChangesNothing)
   EXPECT_EQ(watched.stateHash(), alone.stateHash());
 }
 
+TEST(Place, PutsEveryParticleWhereItIsToldAtRest)
+{
+  Simulation simulation = torn();
+  std::vector<Vec3> positions = simulation.cloth().state.position;
+  for (Vec3& x : positions)
+  {
+    x.y() += Real(1);
+  }
+
+  simulation.place(positions);
+
+  EXPECT_EQ(simulation.cloth().state.position, positions);
+  EXPECT_EQ(fastest(simulation.cloth().state), 0.0);
+}
+
+TEST(Place, RefusesPositionsThatAreNoneAndChangesNothing)
+{
+  Simulation simulation = hanging(untearable());
+  const std::vector<Vec3> before = simulation.cloth().state.position;
+  std::vector<Vec3> positions = before;
+  positions[7].x() = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_THROW(simulation.place(positions), Refusal);
+  positions = before;
+  positions.pop_back();
+  EXPECT_THROW(simulation.place(positions), Refusal);
+  EXPECT_EQ(simulation.cloth().state.position, before);
+}
+
 TEST(Tearing, ConservesMassAreaAndTexture)
 {
   const Simulation whole = hanging(tearable());

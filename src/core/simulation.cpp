@@ -635,6 +635,26 @@ void Simulation::setTearRules(const TearRules& rules)
   watchSprings();
 }
 
+void Simulation::place(const std::vector<Vec3>& positions)
+{
+  std::vector<std::string> found;
+  if (positions.size() != cloth_.state.position.size())
+  {
+    found.push_back("there are " + std::to_string(positions.size()) +
+                    " positions, must be one for "
+                    "each of " +
+                    std::to_string(cloth_.state.size()) + " particles");
+  }
+  for (std::size_t i = 0; i < positions.size() && found.empty(); ++i)
+  {
+    check(found, "position [m] of particle " + std::to_string(i), positions[i].cast<double>(),
+          MAX_COORDINATE);
+  }
+  refuseIf(found);
+  cloth_.state.position = positions;
+  std::fill(cloth_.state.velocity.begin(), cloth_.state.velocity.end(), Vec3::Zero());
+}
+
 std::vector<TearEvent> Simulation::tearsSince(std::uint64_t first, std::size_t most) const
 {
   auto from = std::lower_bound(log_.begin(), log_.end(), first,

@@ -146,6 +146,10 @@ public:
   /// @throws Refusal naming everything wrong with them, or as the constructor if they switch it on
   void setTearRules(const TearRules& rules);
 
+  /// Puts every particle where `positions` [m] says, at rest: to show where cloth belongs.
+  /// @throws Refusal if there are not as many positions as particles, or one is out of range
+  void place(const std::vector<Vec3>& positions);
+
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
   const std::vector<Grasp>& grasps() const { return grasps_; }
