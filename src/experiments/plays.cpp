@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "cloth_tearing/experiments/ball_experiment.h"
+#include "cloth_tearing/experiments/profile_experiment.h"
+#include "cloth_tearing/experiments/texture_experiment.h"
 
 namespace cloth
 {
@@ -51,11 +53,47 @@ void addThreeBalls(std::vector<Play>& plays)
   plays.push_back(play);
 }
 
+void addTexture(std::vector<Play>& plays)
+{
+  Play play;
+  play.name = "texture";
+  play.title = "texture: torn, and put back";
+  play.moments = { { "before", 0.05 }, { "torn", 4.15 }, { "put_back", 6.4 } };
+  play.run = [](const Setting& setting, const Watch& watch)
+  {
+    const Simulation hung = hungCloth(setting);
+    Simulation simulation = hung;
+    tearBadly(simulation, watch);
+    putBackSlowly(simulation, hung.cloth(), watch);
+  };
+  plays.push_back(play);
+}
+
+void addProfile(std::vector<Play>& plays)
+{
+  Play play;
+  play.name = "profile";
+  play.title = "profile: torn here and there for 34 s";
+  play.moments = { { "after_2", 2.0 },
+                   { "after_10", 10.0 },
+                   { "after_18", 18.0 },
+                   { "after_26", 26.0 },
+                   { "after_34", 33.9 } };
+  play.run = [](const Setting& setting, const Watch& watch)
+  {
+    Simulation simulation = profileCloth(setting);
+    profile(simulation, watch);
+  };
+  plays.push_back(play);
+}
+
 std::vector<Play> makePlays()
 {
   std::vector<Play> plays;
   addBalls(plays);
   addThreeBalls(plays);
+  addTexture(plays);
+  addProfile(plays);
   return plays;
 }
 

@@ -48,6 +48,8 @@ const Command COMMANDS[] = {
   { "nonuniform", nonuniform, "4.3: half the particles, fine in the middle, and the time saved" },
   { "direction", direction, "4.2: the crack opens across the pull, the flap hangs along it" },
   { "trouser", trouser, "4.2: legs pulled apart; the tear runs on along the cut; the force" },
+  { "profile", profile, "4.3: what tearing costs while the cloth is torn all the time" },
+  { "texture", texture, "3.3: torn cloth that is put back shows the texture it had" },
 };
 
 void printHelp()
