@@ -43,17 +43,17 @@ std::vector<TriangleId> clothAround(const Cloth& cloth, const Grasp& grasp, cons
   std::vector<TriangleId> around;
   const auto meet = [&](ParticleId p)
   {
-    cloth.mesh.forEachTriangleAt(
-        p,
-        [&](TriangleId t)
-        {
-          const Vec2d away = materialCentre(cloth.mesh.triangle(t)) - centre;
-          if (!met[t.index] && away.norm() < reach)
-          {
-            met[t.index] = 1;
-            around.push_back(t);
-          }
-        });
+    cloth.mesh.forEachTriangleAt(p,
+                                 [&](TriangleId t)
+                                 {
+                                   const Vec2d away =
+                                       materialCentre(cloth.mesh.triangle(t)) - centre;
+                                   if (!met[t.index] && away.norm() < reach)
+                                   {
+                                     met[t.index] = 1;
+                                     around.push_back(t);
+                                   }
+                                 });
   };
   for (const Grasp::Held& held : grasp.held)
   {
@@ -111,7 +111,7 @@ DirectionPull framedPull(double angle, const Vec2d& shift)
 {
   DirectionPull pull;
   pull.angle = angle;
-  pull.lift = 15.0;
+  pull.lift = 30.0;
   pull.shift = shift;
   return pull;
 }
@@ -120,7 +120,9 @@ DirectionPull downwardPull(const Vec2d& shift)
 {
   DirectionPull pull;
   pull.angle = 270.0;
+  pull.lift = 5.0;
   pull.radius = 1.0;
+  pull.way = 2.0;
   pull.shift = shift;
   return pull;
 }

@@ -6,8 +6,10 @@
 #include <stdexcept>
 
 #include "cloth_tearing/experiments/ball_experiment.h"
+#include "cloth_tearing/experiments/direction_experiment.h"
 #include "cloth_tearing/experiments/profile_experiment.h"
 #include "cloth_tearing/experiments/texture_experiment.h"
+#include "cloth_tearing/experiments/trouser_experiment.h"
 
 namespace cloth
 {
@@ -87,11 +89,56 @@ void addProfile(std::vector<Play>& plays)
   plays.push_back(play);
 }
 
+void addDirections(std::vector<Play>& plays)
+{
+  for (int i = 0; i < 8; ++i)
+  {
+    const std::string angle = std::to_string(45 * i);
+    const DirectionPull pull = framedPull(45.0 * i, Vec2d::Zero());
+    Play play;
+    play.name = "direction_" + angle;
+    play.title = "a disc of framed cloth pulled at " + angle + " degrees";
+    play.moments = { { "before", 0.15 }, { "during", 0.6 }, { "after", 2.0 } };
+    play.run = [pull](const Setting& setting, const Watch& watch)
+    {
+      Simulation simulation = framedCloth(setting);
+      pullDisc(simulation, pull, watch);
+    };
+    plays.push_back(play);
+  }
+  Play play;
+  play.name = "direction_down";
+  play.title = "a disc of hanging cloth pulled down";
+  play.moments = { { "before", 0.2 }, { "during", 0.6 }, { "after", 1.9 } };
+  play.run = [](const Setting& setting, const Watch& watch)
+  {
+    Simulation simulation = hungCloth(setting);
+    pullDisc(simulation, downwardPull(Vec2d::Zero()), watch);
+  };
+  plays.push_back(play);
+}
+
+void addTrouser(std::vector<Play>& plays)
+{
+  Play play;
+  play.name = "trouser";
+  play.title = "the legs of a cut sheet pulled apart";
+  play.moments = { { "before", 3.0 }, { "during", 10.0 }, { "after", 13.5 } };
+  play.run = [](const Setting& setting, const Watch& watch)
+  {
+    Simulation simulation = trousers(setting);
+    pullLegs(simulation, watch);
+  };
+  plays.push_back(play);
+}
+
 std::vector<Play> makePlays()
 {
   std::vector<Play> plays;
   addBalls(plays);
   addThreeBalls(plays);
+  addDirections(plays);
+  addTrouser(plays);
   addTexture(plays);
   addProfile(plays);
   return plays;

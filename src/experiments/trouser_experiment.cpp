@@ -12,13 +12,13 @@ namespace cloth
 namespace
 {
 
-const Vec2d SHEET(6.0, 8.0);     ///< thesisSheet() [m]
-constexpr double CUT = 4.0;      ///< its length [m]
-constexpr double FAR = 3.0;      ///< the tear is long enough [m]
-constexpr double RADIUS = 0.75;  ///< of the discs that are held [m]
-constexpr double SPEED = 0.5;    ///< of each gripper [m/s]
-const Vec3d LEG(1.5, 0.0, -7.25);         ///< where the right one is held [m]
-const Vec3d WAY(0.0, 7.0, 5.25);          ///< of the right gripper; the left goes to the front [m]
+const Vec2d SHEET(6.0, 8.0);             ///< thesisSheet() [m]
+constexpr double CUT = 4.0;              ///< its length [m]
+constexpr double FAR = 3.0;              ///< the tear is long enough [m]
+constexpr double RADIUS = 0.75;          ///< of the discs that are held [m]
+constexpr double SPEED = 0.5;            ///< of each gripper [m/s]
+const Vec3d LEG(1.5, 0.0, -7.25);        ///< where the right one is held [m]
+const Vec3d WAY(0.0, 7.0, 5.25);         ///< of the right gripper; the left goes to the front [m]
 const Vec2d ALONG_CUT = Vec2d::UnitY();  ///< in the material
 
 struct Leg
@@ -112,8 +112,7 @@ Vec3d forceOn(const ParticleState& state, const SpringLaw& law, int held)
   const Vec3d way = (state.position[free] - state.position[held]).cast<double>();
   const Vec3d slip = (state.velocity[free] - state.velocity[held]).cast<double>();
   const double length = way.norm();
-  const double tension =
-      law.stiffness * (length - law.rest) + law.damping * slip.dot(way) / length;
+  const double tension = law.stiffness * (length - law.rest) + law.damping * slip.dot(way) / length;
   return tension / length * way;
 }
 

@@ -16,7 +16,7 @@ namespace
 constexpr int DIRECTIONS = 8;
 constexpr double LEAST_MEAN = 65.0;            ///< of the crack's angle, over all runs [degrees]
 constexpr double LEAST_DIRECTION_MEAN = 45.0;  ///< and of each direction [degrees]
-constexpr double MOST_FLAP = 20.0;  ///< of the flap's angle after a pull down [degrees]
+constexpr double MOST_FLAP = 20.0;             ///< of the flap's angle after a pull down [degrees]
 const std::vector<int> SEEDS = { 1, 2, 3, 4, 5 };
 
 /// Angles of several runs [degrees].
@@ -135,7 +135,7 @@ class DirectionTable
 {
 public:
   DirectionTable(const Setting& setting, const std::vector<int>& seeds, Output& output)
-    : setting_(setting), seeds_(seeds), output_(output)
+      : setting_(setting), seeds_(seeds), output_(output)
   {
   }
 
@@ -230,9 +230,10 @@ bool direction(const Options& options)
   std::printf(
       "Eight pulls in a framed cloth, one down in a hanging one: angles to the pull [degrees], "
       "mean and\nspread. The crack in the material, when it is 1 m and 2 m long (torn length 2 "
-      "and 4: both sides);\nthe flap in the world, after %g m. Seeds move the disc, and draw "
-      "irregular meshes.\n\n",
-      DirectionPull().way);
+      "and 4: both sides);\nthe flap in the world, after %g m (hanging: %g m). Seeds move the "
+      "disc, and draw "
+      "irregular\nmeshes.\n\n",
+      framedPull(0.0, Vec2d::Zero()).way, downwardPull(Vec2d::Zero()).way);
   Output output(options.output, "direction.csv");
   bool holds = true;
   Options cloths = options;

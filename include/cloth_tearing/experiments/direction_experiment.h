@@ -20,12 +20,12 @@ struct DirectionPull
   Vec2d shift = Vec2d::Zero();  ///< of the disc from the middle of the sheet [m]
 };
 
-/// A pull for framedCloth(). It lifts the disc a little, as any hand does: pulled exactly in the
-/// plane, the cloth before the disc cannot fold, but is crushed in its plane and breaks up.
+/// A pull for framedCloth(). It lifts the disc, as any hand does: pulled exactly in the plane, the
+/// cloth before the disc cannot fold, but is crushed in its plane and breaks up.
 DirectionPull framedPull(double angle, const Vec2d& shift);
 
-/// A pull straight down for hungCloth(), whose lower part is free to give way. The disc is larger,
-/// for it carries that part, 24 N, when the cloth above it has torn.
+/// A pull down for hungCloth(), hardly lifted: its lower part is free to give way. The disc is
+/// larger, for it carries that part, 24 N, when the cloth above it has torn.
 DirectionPull downwardPull(const Vec2d& shift);
 
 /// One of a series of small shifts, all within 0.2 m either way: what varies from run to run on

@@ -8,12 +8,15 @@ namespace cloth
 
 /// Force of the cloth on a grasp [N]: of all structural and bend-shear springs, with their damping,
 /// between a particle that it holds and one that it does not.
+///
+/// Exact for the force springs. XPBD's one sweep a step leaves springs longer than their load, so
+/// it reads high: about 2 percent at 30 x 30 and 1 ms, and by the square of step times resolution.
 Vec3d forceOnGrasp(const Simulation& simulation, std::uint64_t grasp);
 
 struct TrouserOutcome
 {
-  double advance = 0.0;  ///< how far the tear ran on in the direction of the cut [m]
-  double angle = 0.0;    ///< between the cut and the line from its end to the tear's [degrees]
+  double advance = 0.0;     ///< how far the tear ran on in the direction of the cut [m]
+  double angle = 0.0;       ///< between the cut and the line from its end to the tear's [degrees]
   double edge_angle = 0.0;  ///< mean angle between the torn edges and the cut [degrees]
   double straying = 0.0;    ///< rms distance of the tear from the line of the cut [m]
   double tortuosity = 0.0;  ///< length of the tear over its advance [-]
