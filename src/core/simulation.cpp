@@ -33,7 +33,7 @@ constexpr double LARGEST_SAG = 0.5;
 
 /// Springs that begin a step above this part of the least threshold are looked at in its end [-].
 /// One that makes the rest of the way within a step is found in the end of the next.
-constexpr double NEAR = 0.5;
+constexpr double NEAR = 0.7;
 
 /// How far the cloth reaches: the diagonal of the box around it [m].
 double reachOf(const Cloth& cloth)
