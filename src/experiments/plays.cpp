@@ -60,7 +60,7 @@ void addTexture(std::vector<Play>& plays)
   Play play;
   play.name = "texture";
   play.title = "texture: torn, and put back";
-  play.moments = { { "before", 0.05 }, { "torn", 4.15 }, { "put_back", 6.4 } };
+  play.moments = { { "before", 0.05 }, { "torn", 2.75 }, { "put_back", 5.0 } };
   play.run = [](const Setting& setting, const Watch& watch)
   {
     const Simulation hung = hungCloth(setting);

@@ -19,7 +19,7 @@ constexpr double LARGEST_AREA_CHANGE = 1e-12;  ///< [-]
 /// A point counts as covered this far off a triangle, in parts of the triangle: rounding [-].
 constexpr double EDGE = 1e-9;
 
-constexpr int PULLS = 12;
+constexpr int PULLS = 8;
 constexpr double PULL_TIME = 0.35;    ///< [s]
 constexpr double PULL_SPEED = 4.0;    ///< [m/s]
 constexpr double PULL_RADIUS = 0.25;  ///< [m]

@@ -51,7 +51,7 @@ TextureFit compareTexture(const std::vector<TexturedTriangle>& untorn,
 /// Swaps the texture of two corners of the largest triangle: what must not fit.
 std::vector<TexturedTriangle> withSwappedCorners(std::vector<TexturedTriangle> triangles);
 
-/// Tears a hung cloth badly: twelve pulls, from the lower part up, each for 0.35 s.
+/// Tears a hung cloth badly: eight pulls, from the lower part up, each for 0.35 s.
 /// @param watch called after every step; may be empty
 void tearBadly(Simulation& simulation, const Watch& watch = {});
 
