@@ -18,12 +18,6 @@ namespace
 /// How often a loose piece is looked for beyond the bounds [steps].
 constexpr std::uint64_t BOUNDS_INTERVAL = 100;
 
-/// Thrown spheres wait until there are fewer, streamed ones included.
-constexpr std::size_t MOST_SPHERES = 1000;
-
-/// A streamed sphere takes no longer than this to where it is placed [s].
-constexpr double LONGEST_GLIDE = 0.1;
-
 /// Solver::stiffnessNumber at which a hanging cloth stretches about twice as far as it should.
 constexpr double SOFT = 4.0;
 
@@ -126,6 +120,7 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
     , cloth_(untorn_)
     , solver_(params.solver)
     , tearing_(params.tearing)
+    , log_(params.tear_log_size)
 {
   watchSprings();
   stability_ = findStability();
@@ -188,18 +183,15 @@ StepReport Simulation::step(StepObserver* observer)
   StepReport report;
   enter(StepPhase::CARRY);
   remember();
-  for (Grasp& grasp : grasps_)
-  {
-    carry(grasp, cloth_.state, dt);  // held particles follow their grippers
-  }
+  grippers_.carry(cloth_.state, dt);  // held particles follow their grippers
   enter(StepPhase::ADVANCE);
   outerAccelerations(cloth_, params_.environment, acceleration_);  // gravity, air, wind (2.1.1)
   solver_->advance(cloth_.state, cloth_.springs, acceleration_, dt);
   enter(StepPhase::LIMIT);
   solver_->limitStrain(cloth_.state, cloth_.springs);  // woven cloth hardly stretches (2.1.1)
   enter(StepPhase::CONTACT);
-  moveSpheres(spheres_, params_.contact, params_.environment, dt);
-  contact_.resolve(cloth_, spheres_, params_.contact, dt);  // spheres push the cloth (4.1)
+  moveSpheres(spheres_.all(), params_.contact, params_.environment, dt);
+  contact_.resolve(cloth_, spheres_.all(), params_.contact, dt);  // spheres push the cloth (4.1)
 
   enter(StepPhase::DETECT);
   report.max_strain = scan();
@@ -213,8 +205,8 @@ StepReport Simulation::step(StepObserver* observer)
   enter(StepPhase::EDIT);
   ++step_;
   report.tears = tearing_.tear(
-      cloth_, grasps_,
-      [this](const Vec3& x) { return isInsideObstacle(x, spheres_, params_.contact); },
+      cloth_, grippers_.all(),
+      [this](const Vec3& x) { return isInsideObstacle(x, spheres_.all(), params_.contact); },
       report.postponed);
   record(report);
   if (!report.tears.empty())
@@ -223,7 +215,7 @@ StepReport Simulation::step(StepObserver* observer)
   }
   if (step_ % BOUNDS_INTERVAL == 0)
   {
-    restLoosePieces(report.notes);
+    append(report.notes, loose_pieces_.rest(cloth_, params_.contact));
   }
   return report;
 }
@@ -231,7 +223,7 @@ StepReport Simulation::step(StepObserver* observer)
 double Simulation::scan()
 {
   // A push may overstretch a slack spring in one step: then look at all.
-  const bool pushed = !spheres_.empty() || params_.contact.floor;
+  const bool pushed = !spheres_.all().empty() || params_.contact.floor;
   return pushed || !params_.tearing.enabled ? tearing_.scan(cloth_)
                                             : tearing_.scan(cloth_, solver_->stretched());
 }
@@ -245,16 +237,16 @@ void Simulation::remember()
 {
   cloth_.state.previous = cloth_.state.position;
   undo_.velocity = cloth_.state.velocity;
-  undo_.grasps = grasps_;
-  undo_.spheres = spheres_;
+  undo_.grasps = grippers_.all();
+  undo_.spheres = spheres_.all();
 }
 
 void Simulation::undo()
 {
   cloth_.state.position = cloth_.state.previous;
   cloth_.state.velocity = undo_.velocity;
-  grasps_ = undo_.grasps;
-  spheres_ = undo_.spheres;
+  grippers_.all() = undo_.grasps;
+  spheres_.all() = undo_.spheres;
 }
 
 std::string Simulation::findFault(double max_strain) const
@@ -303,17 +295,12 @@ void Simulation::record(StepReport& report)
 {
   for (TearEvent& event : report.tears)
   {
-    event.sequence = next_sequence_++;
     event.epoch = epoch_;
     event.step = step_;
     event.time = time();
     event.cause = causeOf(event.position);
     ++tears_[static_cast<int>(event.kind)];
-    log_.push_back(event);
-  }
-  while (log_.size() > static_cast<std::size_t>(params_.tear_log_size))
-  {
-    log_.pop_front();
+    log_.add(event);
   }
 }
 
@@ -328,7 +315,7 @@ TearCause Simulation::causeOf(const Vec3d& position) const
       nearest = { kind, id, distance };
     }
   };
-  for (const Grasp& grasp : grasps_)
+  for (const Grasp& grasp : grippers_.all())
   {
     for (const Grasp::Held& held : grasp.held)
     {
@@ -336,7 +323,7 @@ TearCause Simulation::causeOf(const Vec3d& position) const
       consider(CauseKind::GRASP, grasp.id, (at - position).norm());
     }
   }
-  for (const Sphere& sphere : spheres_)
+  for (const Sphere& sphere : spheres_.all())
   {
     const double distance = (sphere.center - position).norm() - sphere.radius;
     const bool thrown = sphere.source == SphereSource::THROWN;
@@ -346,66 +333,13 @@ TearCause Simulation::causeOf(const Vec3d& position) const
   return nearest.kind == CauseKind::NONE ? TearCause{} : nearest;
 }
 
-void Simulation::restLoosePieces(std::vector<std::string>& notes)
-{
-  const Vec3 low = params_.contact.bounds_min.cast<Real>();
-  const Vec3 high = params_.contact.bounds_max.cast<Real>();
-  const auto beyond = [&](ParticleId p)
-  {
-    const Vec3& x = cloth_.state.position[p.index];
-    return (x.array() < low.array()).any() || (x.array() > high.array()).any();
-  };
-  const auto attached = [&](ParticleId p) { return cloth_.attachments[p.index].held(); };
-  std::vector<char> hangs;  // by particle: its piece is held, and has been looked at
-  for (int i = 0; i < cloth_.mesh.particleCount(); ++i)
-  {
-    if (cloth_.damage.at_rest[i] || !beyond({ i }) || (!hangs.empty() && hangs[i]))
-    {
-      continue;
-    }
-    const std::vector<ParticleId> piece = pieces_.pieceOf(cloth_.mesh, { i });
-    if (std::any_of(piece.begin(), piece.end(), attached))
-    {
-      hangs.resize(cloth_.mesh.particleCount(), 0);
-      for (ParticleId p : piece)
-      {
-        hangs[p.index] = 1;
-      }
-      continue;
-    }
-    putToRest(piece);
-    notes.push_back("a loose piece of " + std::to_string(piece.size()) +
-                    " particles left the bounds and was put to rest");
-  }
-}
-
-void Simulation::putToRest(const std::vector<ParticleId>& piece)
-{
-  for (ParticleId p : piece)
-  {
-    cloth_.damage.at_rest[p.index] = 1;
-    cloth_.state.velocity[p.index].setZero();
-    cloth_.refreshInverseMass(p);
-    cloth_.mesh.forEachTriangleAt(p,
-                                  [&](TriangleId t)
-                                  {
-                                    for (SpringId s : cloth_.mesh.triangle(t).springs)
-                                    {
-                                      cloth_.springs.release(s);
-                                      cloth_.springs.bend_shear[s.index] = SpringLaw{};
-                                    }
-                                  });
-  }
-  ++cloth_.damage.pieces_at_rest;
-}
-
 void Simulation::reset()
 {
   cloth_ = untorn_;
   solver_ = SolverHandle(params_.solver);
   watchSprings();
   stability_ = findStability();
-  grasps_.clear();
+  grippers_.clear();
   spheres_.clear();
   tears_ = {};
   start_time_ = time();
@@ -413,217 +347,14 @@ void Simulation::reset()
   ++epoch_;
 }
 
-std::vector<ParticleId> Simulation::within(const GraspRequest& request, double& nearest) const
-{
-  std::vector<ParticleId> inside;
-  ParticleId closest;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < cloth_.mesh.particleCount(); ++i)
-  {
-    if (cloth_.attachments[i].pinned() || cloth_.damage.at_rest[i])
-    {
-      continue;
-    }
-    const double squared = (cloth_.state.position[i].cast<double>() - request.point).squaredNorm();
-    if (squared < least)
-    {
-      least = squared;
-      closest = { i };
-    }
-    if (squared <= request.radius * request.radius && request.radius > 0.0)
-    {
-      inside.push_back({ i });
-    }
-  }
-  nearest = std::sqrt(least);
-  if (request.radius == 0.0 && nearest <= params_.max_grasp_distance)
-  {
-    inside.push_back(closest);
-  }
-  return inside;
-}
-
 GraspTaken Simulation::grasp(const GraspRequest& request)
 {
-  std::vector<std::string> found;
-  check(found, "point [m]", request.point, MAX_COORDINATE);
-  check(found, "radius [m]", request.radius, Range::between(0.0, MAX_COORDINATE));
-  if (request.frame.position != request.point)  // as it mostly is: told once
-  {
-    check(found, "frame position [m]", request.frame.position, MAX_COORDINATE);
-  }
-  check(found, "frame orientation", request.frame.rotation);
-  refuseIf(found);
-
-  GraspTaken taken;
-  const std::vector<ParticleId> inside = within(request, taken.distance);
-  if (inside.empty())
-  {
-    const double reach = request.radius > 0.0 ? request.radius : params_.max_grasp_distance;
-    const std::string limit = request.radius > 0.0 ? "radius" : "max_grasp_distance";
-    if (std::isinf(taken.distance))
-    {
-      throw Refusal("there is no particle to take hold of: all are pinned or were put to rest");
-    }
-    throw Refusal("there is no particle within " + text(reach) + " m (" + limit +
-                  ") of the point; the nearest that is not pinned is " + text(taken.distance) +
-                  " m away");
-  }
-  for (ParticleId p : inside)
-  {
-    const Attachment& attachment = cloth_.attachments[p.index];
-    if (attachment.held())
-    {
-      throw Refusal("particle " + std::to_string(p.index) + " is held by grasp " +
-                    std::to_string(attachment.grasp) + ": release that first");
-    }
-  }
-
-  Grasp grasp;
-  grasp.id = next_grasp_++;
-  grasp.pose = request.frame;
-  grasp.pose.rotation.normalize();
-  for (ParticleId p : inside)
-  {
-    grasp.held.push_back(
-        { p, grasp.pose.applyInverse(cloth_.state.position[p.index].cast<double>()) });
-    cloth_.attach(p, { Attachment::Kind::GRASP, grasp.id });
-  }
-  taken.id = grasp.id;
-  taken.held_particles = static_cast<int>(inside.size());
-  grasps_.push_back(std::move(grasp));
-  return taken;
-}
-
-Grasp& Simulation::findGrasp(std::uint64_t id)
-{
-  const auto found =
-      std::find_if(grasps_.begin(), grasps_.end(), [id](const Grasp& g) { return g.id == id; });
-  if (found == grasps_.end())
-  {
-    throw Refusal("there is no grasp " + std::to_string(id));
-  }
-  return *found;
-}
-
-void Simulation::drag(std::uint64_t grasp, const DragTarget& target)
-{
-  Grasp& dragged = findGrasp(grasp);
-  refuseIf(problems(target));
-  dragged.target = target;
-  dragged.target->pose.rotation.normalize();
-}
-
-void Simulation::letGo(const Grasp& grasp)
-{
-  for (const Grasp::Held& held : grasp.held)
-  {
-    const Vec3 velocity = cloth_.state.velocity[held.particle.index];
-    cloth_.attach(held.particle, {});
-    cloth_.state.velocity[held.particle.index] = velocity;
-  }
-}
-
-void Simulation::release(std::uint64_t grasp)
-{
-  const Grasp& held = findGrasp(grasp);
-  letGo(held);
-  grasps_.erase(grasps_.begin() + (&held - grasps_.data()));
-}
-
-int Simulation::releaseAll()
-{
-  for (const Grasp& grasp : grasps_)
-  {
-    letGo(grasp);
-  }
-  const int released = static_cast<int>(grasps_.size());
-  grasps_.clear();
-  return released;
+  return grippers_.take(cloth_, request, params_.max_grasp_distance);
 }
 
 void Simulation::setSpheres(const std::vector<Sphere>& spheres)
 {
-  std::vector<std::string> found;
-  for (std::size_t i = 0; i < spheres.size(); ++i)
-  {
-    append(found, problems(spheres[i]));
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      if (spheres[j].id == spheres[i].id)
-      {
-        found.push_back("sphere " + std::to_string(spheres[i].id) + " is there twice");
-      }
-    }
-  }
-  refuseIf(found);
-
-  std::vector<Sphere> next;
-  for (const Sphere& sphere : spheres_)
-  {
-    if (sphere.source == SphereSource::THROWN)
-    {
-      next.push_back(sphere);
-    }
-  }
-  for (const Sphere& set : spheres)
-  {
-    next.push_back(streamed(set));
-  }
-  spheres_ = std::move(next);
-}
-
-Sphere Simulation::streamed(const Sphere& set) const
-{
-  Sphere sphere = set;
-  sphere.source = SphereSource::STREAMED;
-  sphere.time_left = params_.contact.sphere_timeout;
-  sphere.jump = Vec3d::Zero();
-  sphere.jump_time = 0.0;
-  sphere.age = 0.0;
-  sphere.fresh = true;
-  sphere.out = Vec3d::Zero();
-  const auto known = std::find_if(spheres_.begin(), spheres_.end(),
-                                  [&](const Sphere& s)
-                                  { return s.source == SphereSource::STREAMED && s.id == set.id; });
-  if (known != spheres_.end())
-  {
-    // It goes there in the time since it was last heard of, unless that is no motion any more.
-    const Vec3d jump = set.center - known->center;
-    const double time = std::max(known->age, params_.solver.time_step);
-    if (jump.norm() <= params_.contact.max_sphere_speed * time)
-    {
-      sphere.center = known->center;
-      sphere.fresh = known->fresh;
-      sphere.out = known->out;
-      sphere.jump = jump;
-      sphere.jump_time = std::min(time, LONGEST_GLIDE);
-    }
-  }
-  return sphere;
-}
-
-std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
-{
-  Sphere sphere;
-  sphere.source = SphereSource::THROWN;
-  sphere.id = next_thrown_;
-  sphere.center = request.center;
-  sphere.velocity = request.velocity;
-  sphere.radius = request.radius;
-  sphere.mass = request.mass;
-  sphere.time_left = request.lifetime;
-  std::vector<std::string> found = problems(sphere);
-  check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, 1e6));
-  if (spheres_.size() >= MOST_SPHERES)
-  {
-    found.push_back("there are " + std::to_string(spheres_.size()) +
-                    " spheres, must be less than " + std::to_string(MOST_SPHERES) +
-                    " for one to be thrown");
-  }
-  refuseIf(found);
-  spheres_.push_back(sphere);
-  return next_thrown_++;
+  spheres_.set(spheres, params_.contact, params_.solver.time_step);
 }
 
 void Simulation::setTearRules(const TearRules& rules)
@@ -655,24 +386,9 @@ void Simulation::place(const std::vector<Vec3>& positions)
   std::fill(cloth_.state.velocity.begin(), cloth_.state.velocity.end(), Vec3::Zero());
 }
 
-std::vector<TearEvent> Simulation::tearsSince(std::uint64_t first, std::size_t most) const
-{
-  auto from = std::lower_bound(log_.begin(), log_.end(), first,
-                               [](const TearEvent& event, std::uint64_t sequence)
-                               { return event.sequence < sequence; });
-  const std::size_t count = std::min(most, static_cast<std::size_t>(log_.end() - from));
-  return { from, from + static_cast<std::ptrdiff_t>(count) };
-}
-
-std::array<std::uint64_t, 2> Simulation::loggedTears() const
-{
-  return log_.empty() ? std::array<std::uint64_t, 2>{ 1, 0 }
-                      : std::array<std::uint64_t, 2>{ log_.front().sequence, log_.back().sequence };
-}
-
 Snapshot Simulation::snapshot() const
 {
-  Snapshot snapshot{ makeSurface(cloth_), spheres_, grasps_ };
+  Snapshot snapshot{ makeSurface(cloth_), spheres_.all(), grippers_.all() };
   snapshot.surface.time = time();
   snapshot.surface.step = step_;
   snapshot.surface.epoch = epoch_;
@@ -720,7 +436,7 @@ Summary Simulation::summary() const
 
 std::uint64_t Simulation::stateHash() const
 {
-  return cloth::stateHash(cloth_, grasps_, spheres_);
+  return cloth::stateHash(cloth_, grippers_.all(), spheres_.all());
 }
 
 }  // namespace cloth

@@ -3,24 +3,22 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/cloth_model.h"
-#include "cloth_tearing/core/grasp.h"
+#include "cloth_tearing/core/grippers.h"
+#include "cloth_tearing/core/loose_pieces.h"
 #include "cloth_tearing/core/material.h"
-#include "cloth_tearing/core/obstacles.h"
-#include "cloth_tearing/core/pieces.h"
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/rest_shape.h"
 #include "cloth_tearing/core/solver.h"
 #include "cloth_tearing/core/sphere_contact.h"
+#include "cloth_tearing/core/sphere_set.h"
 #include "cloth_tearing/core/step_observer.h"
 #include "cloth_tearing/core/surface.h"
-#include "cloth_tearing/core/tear_event.h"
+#include "cloth_tearing/core/tear_log.h"
 #include "cloth_tearing/core/tear_rules.h"
 #include "cloth_tearing/core/tearing.h"
 
@@ -43,29 +41,6 @@ struct SimulationParams
 
 /// Everything wrong with `params`, one sentence each, naming the field; empty if they can be used.
 std::vector<std::string> problems(const SimulationParams& params);
-
-struct GraspRequest
-{
-  Vec3d point = Vec3d::Zero();  ///< [m], cloth frame
-  double radius = 0.0;          ///< [m]; 0 = the single nearest particle within max_grasp_distance
-  Pose frame;                   ///< the grasp frame, cloth frame
-};
-
-struct GraspTaken
-{
-  std::uint64_t id = 0;
-  int held_particles = 0;
-  double distance = 0.0;  ///< from the point to the nearest particle [m]
-};
-
-struct ThrowRequest
-{
-  Vec3d center = Vec3d::Zero();    ///< [m], cloth frame
-  Vec3d velocity = Vec3d::Zero();  ///< [m/s]
-  double radius = 0.1;             ///< [m], > 0
-  double mass = 0.0;               ///< [kg]; 0 = kinematic
-  double lifetime = 10.0;          ///< [s], > 0
-};
 
 struct StepReport
 {
@@ -124,13 +99,13 @@ public:
 
   /// Sends a grasp on its way; a second drag replaces the first.
   /// @throws Refusal if there is no such grasp or the target is not usable
-  void drag(std::uint64_t grasp, const DragTarget& target);
+  void drag(std::uint64_t grasp, const DragTarget& target) { grippers_.drag(grasp, target); }
 
   /// Lets go. @throws Refusal if there is no such grasp
-  void release(std::uint64_t grasp);
+  void release(std::uint64_t grasp) { grippers_.release(cloth_, grasp); }
 
   /// Lets go of everything. @return how many grasps there were
-  int releaseAll();
+  int releaseAll() { return grippers_.releaseAll(cloth_); }
 
   /// The full set of streamed spheres: known ids move on from where they are, others are new,
   /// missing ones vanish.
@@ -139,7 +114,7 @@ public:
 
   /// @return the id of the thrown sphere
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
-  std::uint64_t throwSphere(const ThrowRequest& request);
+  std::uint64_t throwSphere(const ThrowRequest& request) { return spheres_.throwOne(request); }
 
   /// Changes the rules from the next step on, to switch tearing on and off or tune it; hem_width
   /// counts from the next build of the cloth.
@@ -152,8 +127,8 @@ public:
 
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
-  const std::vector<Grasp>& grasps() const { return grasps_; }
-  const std::vector<Sphere>& spheres() const { return spheres_; }
+  const std::vector<Grasp>& grasps() const { return grippers_.all(); }
+  const std::vector<Sphere>& spheres() const { return spheres_.all(); }
   double time() const { return start_time_ + step_ * params_.solver.time_step; }
   std::uint64_t stepCount() const { return step_; }
   std::uint32_t epoch() const { return epoch_; }
@@ -163,10 +138,13 @@ public:
   std::vector<std::string> startNotes() const;
 
   /// Logged tears from sequence number `first` on, at most `most`.
-  std::vector<TearEvent> tearsSince(std::uint64_t first, std::size_t most) const;
+  std::vector<TearEvent> tearsSince(std::uint64_t first, std::size_t most) const
+  {
+    return log_.since(first, most);
+  }
 
   /// The oldest and newest tear number in the log; {1, 0} if there was none.
-  std::array<std::uint64_t, 2> loggedTears() const;
+  std::array<std::uint64_t, 2> loggedTears() const { return log_.range(); }
 
   Snapshot snapshot() const;
   Summary summary() const;
@@ -186,17 +164,11 @@ private:
   void remember();
   void undo();
   std::string findFault(double max_strain) const;
-  void restLoosePieces(std::vector<std::string>& notes);
-  void putToRest(const std::vector<ParticleId>& piece);
   Stability findStability();
   void checkStability(std::vector<std::string>& notes);
   void refuseTooSoft(const TearRules& rules) const;
   void record(StepReport& report);
   TearCause causeOf(const Vec3d& position) const;
-  Grasp& findGrasp(std::uint64_t id);
-  void letGo(const Grasp& grasp);
-  Sphere streamed(const Sphere& set) const;
-  std::vector<ParticleId> within(const GraspRequest& request, double& nearest) const;
 
   SimulationParams params_;
   Cloth untorn_;  ///< as built, for reset()
@@ -204,21 +176,18 @@ private:
   SolverHandle solver_;
   SphereContact contact_;
   Tearing tearing_;
-  Pieces pieces_;
-  std::vector<Grasp> grasps_;  ///< by ascending id
-  std::vector<Sphere> spheres_;
+  LoosePieces loose_pieces_;
+  Grippers grippers_;
+  SphereSet spheres_;
   std::vector<Vec3> acceleration_;  ///< scratch of a step [m/s^2]
   Undo undo_;
   Stability stability_;
-  std::deque<TearEvent> log_;
+  TearLog log_;
   std::array<std::uint64_t, TEAR_KINDS> tears_{};  ///< by kind, since the last reset
   Stability start_stability_;                      ///< of the cloth as built
   double start_time_ = 0.0;                        ///< of the epoch [s]
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
-  std::uint64_t next_sequence_ = 1;
-  std::uint64_t next_grasp_ = 1;
-  std::uint64_t next_thrown_ = 1;
 };
 
 }  // namespace cloth
