@@ -1,0 +1,95 @@
+// Hosts services that answer with success and a reason, and counts what was refused.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+
+#include <exception>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/node/cloth_publisher.h"
+#include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/frames.h"
+
+namespace cloth_tearing
+{
+
+/// Whether a request leaves everything as it is.
+enum class Effect
+{
+  CHANGES,  ///< what was done is published at once
+  LOOKS,
+};
+
+/// A refusal is an answer with its reason: a callback itself never fails.
+class RequestServer
+{
+public:
+  explicit RequestServer(ClothPublisher& publisher) : publisher_(publisher) {}
+
+  /// Answers `name` below `node`'s namespace with `work(request, response)`, whatever it throws
+  /// being the reason of a refusal. Service's response has `success` and `message`.
+  template <class Service, class Work>
+  void serve(ros::NodeHandle& node, const std::string& name, Work work,
+             Effect effect = Effect::CHANGES)
+  {
+    using Request = typename Service::Request;
+    using Response = typename Service::Response;
+    const boost::function<bool(Request&, Response&)> callback =
+        [this, name, work, effect](Request& request, Response& response)
+    {
+      response.success = true;
+      const std::string reason = refusal(name, [&] { work(request, response); });
+      if (!reason.empty())
+      {
+        response = Response();
+        response.message = reason;
+      }
+      else if (effect == Effect::CHANGES)
+      {
+        publisher_.touch();
+      }
+      return true;
+    };
+    services_.push_back(node.advertiseService(name, callback));
+  }
+
+  /// Does `work`, which came on the topic or action `name`.
+  /// @return why it was refused, which was counted; empty if it was done
+  template <class Work>
+  std::string refusal(const std::string& name, Work work)
+  {
+    try
+    {
+      work();
+      return "";
+    }
+    catch (const std::exception& error)  // Refusal and Busy say why; nothing may hide the reason
+    {
+      const std::string reason = *error.what() == '\0' ? "refused" : error.what();
+      publisher_.countRefusal(name, reason);
+      return reason;
+    }
+  }
+
+private:
+  ClothPublisher& publisher_;
+  std::vector<ros::ServiceServer> services_;
+};
+
+/// What every group of requests works with. All of it outlives the groups.
+struct NodeContext
+{
+  ros::NodeHandle node;  ///< private
+  const Placement& placement;
+  Frames& frames;
+  ClothPublisher& publisher;
+  RequestServer& requests;
+  cloth::SimulationLoop& loop;
+};
+
+}  // namespace cloth_tearing
