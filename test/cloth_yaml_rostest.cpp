@@ -145,6 +145,14 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
 
   EXPECT_EQ(shipped.contact.friction, compiled.contact.friction);
   EXPECT_EQ(shipped.contact.thickness, compiled.contact.thickness);
+  EXPECT_EQ(shipped.strength.scatter, compiled.strength.scatter);
+  EXPECT_EQ(shipped.strength.seed, compiled.strength.seed);
+  EXPECT_TRUE(shipped.strength.spots.empty());
+  EXPECT_TRUE(shipped.strength.lines.empty());
+  EXPECT_TRUE(shipped.strength.perforations.empty());
+  EXPECT_EQ(shipped.strength.border_factor, compiled.strength.border_factor);
+  EXPECT_EQ(shipped.strength.border_width, compiled.strength.border_width);
+
   EXPECT_EQ(shipped.contact.push_speed, compiled.contact.push_speed);
   EXPECT_EQ(shipped.contact.floor, compiled.contact.floor);
   EXPECT_EQ(shipped.contact.floor_height, compiled.contact.floor_height);

@@ -650,6 +650,7 @@ TEST(EditedCloth, KeepsMassRestAreaAndTheSizeOfEveryArray)
       EXPECT_EQ(cloth.damage.parents.size(), particles);
       EXPECT_EQ(cloth.damage.outer.size(), springs);
       EXPECT_EQ(cloth.damage.released.size(), springs);
+      EXPECT_EQ(cloth.damage.strength.size(), springs);
     }
   }
 }

@@ -103,6 +103,41 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   EXPECT_EQ(params.markers.coloring, cloth_tearing::Coloring::STRAIN);
 }
 
+TEST(ParamsLoader, CarriesTheStrengthMapNumberByNumber)
+{
+  XmlRpcValue tree;
+  tree["strength"]["scatter"] = 0.2;
+  tree["strength"]["seed"] = 9;
+  tree["strength"]["spots"] = list({ list({ 0.1, -0.2, 0.3, 0.04, 0.5 }) });
+  tree["strength"]["lines"] = list({ list({ 1, 2, 3, 4, 5, 6, 0.7, 8 }) });
+  tree["strength"]["perforations"] = list({ list({ 1, 2, 3, 4, 5, 6, 0.7, 0.8, 0.09, 0.6 }) });
+  tree["strength"]["border_factor"] = 3.0;
+  tree["strength"]["border_width"] = 0.05;
+
+  const cloth_tearing::LoadedParams loaded = loadParams(tree);
+
+  ASSERT_EQ(joined(loaded.problems), "");
+  const cloth::StrengthParams& strength = loaded.params.simulation.strength;
+  EXPECT_EQ(strength.scatter, 0.2);
+  EXPECT_EQ(strength.seed, 9u);
+  ASSERT_EQ(strength.spots.size(), 1u);
+  EXPECT_EQ(strength.spots[0].center, cloth::Vec3d(0.1, -0.2, 0.3));
+  EXPECT_EQ(strength.spots[0].radius, 0.04);
+  EXPECT_EQ(strength.spots[0].factor, 0.5);
+  ASSERT_EQ(strength.lines.size(), 1u);
+  EXPECT_EQ(strength.lines[0].from, cloth::Vec3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(strength.lines[0].to, cloth::Vec3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(strength.lines[0].width, 0.7);
+  EXPECT_EQ(strength.lines[0].factor, 8.0);
+  ASSERT_EQ(strength.perforations.size(), 1u);
+  EXPECT_EQ(strength.perforations[0].line.to, cloth::Vec3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(strength.perforations[0].line.factor, 0.8);
+  EXPECT_EQ(strength.perforations[0].pitch, 0.09);
+  EXPECT_EQ(strength.perforations[0].duty, 0.6);
+  EXPECT_EQ(strength.border_factor, 3.0);
+  EXPECT_EQ(strength.border_width, 0.05);
+}
+
 TEST(ParamsLoader, KnowsEveryColoring)
 {
   using cloth_tearing::Coloring;
@@ -212,6 +247,14 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
   {
     const std::string found = problemsWith(c.group, c.entry, c.value);
     EXPECT_NE(found.find(c.expected), std::string::npos)
+    { "strength", "scatter", 1.0, "strength/scatter [-] is 1, must be at least 0 and at most 0.9" },
+    { "strength", "seed", -1, "strength/seed is -1" },
+    { "strength", "spots", list({ list({ 0, 0, 0, 0.1 }) }), "strength/spots[0] is a list of 4" },
+    { "strength", "lines", list({ list({ 0, 0, 0, 1, 0, 0, 0.1, 99 }) }),
+      "strength/lines[0] factor [-] is 99" },
+    { "strength", "perforations", list({ list({ 0, 0, 0, 1, 0, 0, 0.1, 0.5, 0.1, 2 }) }),
+      "strength/perforations[0] duty [-] is 2" },
+    { "strength", "border_factor", 0.0, "strength/border_factor [-] is 0" },
         << c.group << "/" << c.entry << ": no '" << c.expected << "' in: " << found;
   }
 }
@@ -290,4 +333,23 @@ TEST(InClothFrame, MovesTheFloorToTheClothAndLeavesTheRest)
 
   EXPECT_DOUBLE_EQ(simulation.contact.floor_height, 0.25 - params.cloth_pose.position.z());
   EXPECT_EQ(simulation.contact.bounds_min, params.simulation.contact.bounds_min);
+}
+
+TEST(InClothFrame, TurnsTheStrengthMapWithTheModel)
+{
+  cloth_tearing::NodeParams params;
+  params.simulation.strength.spots = { { cloth::Vec3d(0.2, -0.3, 0.0), 0.01, 0.5 } };
+  params.simulation.strength.lines = { { cloth::Vec3d(-0.5, -0.5, 0.0),
+                                         cloth::Vec3d(0.5, -0.5, 0.0), 0.01, 0.5 } };
+  params.simulation.strength.perforations = { { params.simulation.strength.lines[0], 0.1, 0.5 } };
+  const cloth_tearing::PlacedModel placed = cloth_tearing::placedModel(params);
+
+  const cloth::SimulationParams simulation = cloth_tearing::inClothFrame(params);
+
+  // The default pose hangs the model's x-y plane up in x-z.
+  EXPECT_TRUE(simulation.strength.spots[0].center.isApprox(cloth::Vec3d(0.2, 0.0, -0.3), 1e-6));
+  const cloth::Mesh mesh(static_cast<int>(placed.model.positions.size()), placed.model.triangles);
+  EXPECT_EQ(cloth::springStrengths(mesh, placed.model.positions, simulation.strength),
+            cloth::springStrengths(mesh, cloth::rectangle(params.rectangle).positions,
+                                   params.simulation.strength));
 }

@@ -398,6 +398,7 @@ private:
       cloth.springs.bend_shear.size(),
       cloth.damage.outer.size(),
       cloth.damage.released.size(),
+      cloth.damage.strength.size(),
     };
     const std::set<std::size_t> by_triangle = {
       static_cast<std::size_t>(cloth.mesh.triangleCount()),

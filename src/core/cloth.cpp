@@ -2,90 +2,16 @@
 #include "cloth_tearing/core/cloth.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/pieces.h"
+#include "cloth_tearing/core/point_grid.h"
 #include "cloth_tearing/core/refusal.h"
 
 namespace cloth
 {
 namespace
 {
-
-/// Points by the cubes of space they lie in: who is near is in the same cube or a next one.
-class PointGrid
-{
-public:
-  explicit PointGrid(double width) : width_(width) {}
-
-  void add(const Vec3d& point) { cubes_[cubeOf(point)].push_back(point); }
-
-  /// Whether a point lies within the width of `place`.
-  bool isNear(const Vec3d& place) const
-  {
-    const Cube middle = cubeOf(place);
-    for (double dx : { 0.0, -1.0, 1.0 })
-    {
-      for (double dy : { 0.0, -1.0, 1.0 })
-      {
-        for (double dz : { 0.0, -1.0, 1.0 })
-        {
-          if (isNear(place, { middle[0] + dx, middle[1] + dy, middle[2] + dz }))
-          {
-            return true;
-          }
-        }
-      }
-    }
-    return false;
-  }
-
-private:
-  using Cube = std::array<double, 3>;  ///< whole numbers, however large
-
-  Cube cubeOf(const Vec3d& place) const
-  {
-    return { std::floor(place.x() / width_), std::floor(place.y() / width_),
-             std::floor(place.z() / width_) };
-  }
-
-  bool isNear(const Vec3d& place, const Cube& cube) const
-  {
-    const auto found = cubes_.find(cube);
-    return found != cubes_.end() &&
-           std::any_of(found->second.begin(), found->second.end(),
-                       [&](const Vec3d& point)
-                       { return (point - place).squaredNorm() <= width_ * width_; });
-  }
-
-  double width_;
-  std::map<Cube, std::vector<Vec3d>> cubes_;
-};
-
-/// Marks what lies within `width` of a pin. A garment folds in space, so distance is measured
-/// between particles of the model as it hangs; it is small beside the folds.
-std::vector<char> hemParticles(const std::vector<Vec3d>& positions, const std::vector<int>& pinned,
-                               double width)
-{
-  std::vector<char> hem(positions.size(), 0);
-  if (width <= 0.0)
-  {
-    return hem;
-  }
-  PointGrid pins(width);
-  for (int pin : pinned)
-  {
-    pins.add(positions[pin]);
-  }
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    hem[i] = pins.isNear(positions[i]) ? 1 : 0;
-  }
-  return hem;
-}
 
 void refuseFarAway(const std::vector<Vec3d>& positions)
 {
@@ -148,6 +74,7 @@ void Cloth::follow(const Edit& edit)
     damage.released.push_back(added.parent.valid() ? damage.released[parent] : 0);
     damage.outer.push_back(added.parent.valid() ? damage.outer[parent] : 0);
   }
+  followStrengths(damage.strength, mesh, edit);
   rest.follow(mesh, edit);
   springs.refresh(mesh, rest, material, edit.touched);
   for (const auto& added : edit.springs)
@@ -207,7 +134,7 @@ Vec3 Cloth::direction(SpringId s, ParticleId from) const
 }
 
 Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const Material& material,
-                RestShapeSource rest_shape, double hem_width)
+                RestShapeSource rest_shape, double hem_width, const StrengthParams& strength)
 {
   refuseFarAway(model.positions);
   Cloth cloth;
@@ -216,7 +143,14 @@ Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const M
   cloth.rest = makeRestShape(cloth.mesh, model.positions, rest_shape, material.areal_density);
   cloth.springs = makeSpringTable(cloth.mesh, cloth.rest, material);
   cloth.damage = undamaged(cloth.mesh);
-  cloth.damage.hem = hemParticles(model.positions, pinned, hem_width);
+  // A garment folds in space, so distance is measured between particles of the model as it hangs;
+  // a hem is small beside the folds.
+  cloth.damage.hem = positionsNear(model.positions, pinned, hem_width);
+  cloth.damage.strength = springStrengths(cloth.mesh, model.positions, strength);
+  for (double factor : cloth.damage.strength)
+  {
+    cloth.damage.least_strength = std::min(cloth.damage.least_strength, factor);
+  }
   cloth.state.resize(cloth.mesh.particleCount());
   cloth.attachments.resize(cloth.mesh.particleCount());
   for (int i = 0; i < cloth.mesh.particleCount(); ++i)

@@ -102,6 +102,7 @@ std::vector<std::string> problems(const SimulationParams& params)
   append(found, problems(params.environment));
   append(found, problems(params.solver));
   append(found, problems(params.tearing));
+  append(found, problems(params.strength));
   append(found, problems(params.contact));
   checkAir(found, params);
   check(found, "max_grasp_distance [m]", params.max_grasp_distance,
@@ -115,8 +116,8 @@ std::vector<std::string> problems(const SimulationParams& params)
 Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
                        const SimulationParams& params)
     : params_(checked(params))
-    , untorn_(
-          makeCloth(model, pinned, params.material, params.rest_shape, params.tearing.hem_width))
+    , untorn_(makeCloth(model, pinned, params.material, params.rest_shape, params.tearing.hem_width,
+                        params.strength))
     , cloth_(untorn_)
     , solver_(params.solver)
     , tearing_(params.tearing)
@@ -230,7 +231,7 @@ double Simulation::scan()
 
 void Simulation::watchSprings()
 {
-  solver_->watch(NEAR * std::min(tearing_.leastThreshold(), params_.runaway_strain));
+  solver_->watch(NEAR * std::min(tearing_.leastThreshold(cloth_), params_.runaway_strain));
 }
 
 void Simulation::remember()

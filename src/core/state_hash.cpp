@@ -78,6 +78,11 @@ void addTopology(Hash& hash, const Cloth& cloth)
   {
     hash.add(cloth.rest.length[i]);
     hash.add(static_cast<int>(cloth.damage.released[i]));
+    if (cloth.damage.strength[i] != 1.0)  // cloth of one strength has the hash that it always had
+    {
+      hash.add(cloth.damage.strength[i]);
+      hash.add(i);
+    }
   }
 }
 

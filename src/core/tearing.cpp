@@ -96,11 +96,12 @@ void weaken(Cloth& cloth, ParticleId p)
 
 }  // namespace
 
-double Tearing::hemFactor(const Cloth& cloth, SpringId s) const
+/// What every threshold of the spring is multiplied by [-].
+double Tearing::strength(const Cloth& cloth, SpringId s) const
 {
   const auto& ends = cloth.mesh.spring(s).particles;
   const bool hem = cloth.damage.hem[ends[0].index] || cloth.damage.hem[ends[1].index];
-  return hem ? rules_.hem_factor : 1.0;
+  return cloth.damage.strength[s.index] * (hem ? rules_.hem_factor : 1.0);
 }
 
 double Tearing::crackBand(const Cloth& cloth, SpringId s) const
@@ -117,14 +118,14 @@ std::vector<Tearing::Option> Tearing::options(const Cloth& cloth, SpringId s) co
     {
       continue;  // never doubled: the load moves on
     }
-    const double hem = hemFactor(cloth, s);
+    const double factor = strength(cloth, s);
     if (cloth.damage.hinge[p.index])
     {
-      found.push_back({ TearKind::ONE_POINT, p, hem * rules_.onePointThreshold(), 0.0 });
+      found.push_back({ TearKind::ONE_POINT, p, factor * rules_.onePointThreshold(), 0.0 });
     }
     else if (cloth.damage.weak[p.index])
     {
-      const double threshold = hem * crackBand(cloth, s) * rules_.weak_tear_strain;
+      const double threshold = factor * crackBand(cloth, s) * rules_.weak_tear_strain;
       found.push_back({ TearKind::WEAK_POINT, p, threshold, 0.0 });
     }
   }
@@ -149,7 +150,7 @@ std::vector<Tearing::Option> Tearing::options(const Cloth& cloth, SpringId s) co
 
 TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
 {
-  TearReading reading{ s, TearKind::BASIC, own, hemFactor(cloth, s) * rules_.tear_strain };
+  TearReading reading{ s, TearKind::BASIC, own, strength(cloth, s) * rules_.tear_strain };
   const auto& ends = cloth.mesh.spring(s).particles;
   const auto vulnerable = [&](ParticleId p)
   { return cloth.damage.hinge[p.index] || cloth.damage.weak[p.index]; };
@@ -172,16 +173,22 @@ TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
   return reading;
 }
 
-double Tearing::leastThreshold() const
+/// The least threshold of a spring of strength 1 [-].
+double Tearing::leastRule() const
 {
   return std::min({ rules_.tear_strain, rules_.weak_tear_strain, rules_.onePointThreshold() });
+}
+
+double Tearing::leastThreshold(const Cloth& cloth) const
+{
+  return cloth.damage.least_strength * leastRule();
 }
 
 void Tearing::look(const Cloth& cloth, SpringId s, double& most)
 {
   const double own = cloth.strain(s);
   most = own > most || !(own == own) ? own : most;  // a NaN must not hide
-  if (rules_.enabled && own > leastThreshold())
+  if (rules_.enabled && own > cloth.damage.strength[s.index] * leastRule())
   {
     const TearReading reading = read(cloth, s, own);
     if (reading.utilisation() > 1.0)
@@ -196,7 +203,7 @@ double Tearing::scan(const Cloth& cloth)
   found_.clear();
   const auto& x = cloth.state.position;
   double most = 0.0;
-  const double least = leastThreshold();
+  const double least = leastThreshold(cloth);
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
   {
     const SpringLaw& law = cloth.springs.structural[i];
@@ -293,7 +300,7 @@ bool Tearing::tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s,
 bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, TearEvent& event)
 {
   event.strain = patch_.read(cloth, s, rules_.tear_radius);
-  event.threshold = hemFactor(cloth, s) * rules_.tear_strain;
+  event.threshold = strength(cloth, s) * rules_.tear_strain;
   if (event.strain <= event.threshold)
   {
     return false;
@@ -461,7 +468,8 @@ void Tearing::release(Cloth& cloth, SpringId s, TearEvent& event)
 /// (3.2.3), a little and never into an obstacle.
 void Tearing::relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const
 {
-  const double excess = cloth.strain(s) - rules_.weak_tear_strain;
+  const double threshold = cloth.damage.strength[s.index] * rules_.weak_tear_strain;
+  const double excess = cloth.strain(s) - threshold;
   if (excess <= 0.0 || cloth.attachments[copy.index].held())
   {
     return;

@@ -35,6 +35,7 @@ std::vector<std::string> grouped(const cloth::SimulationParams& simulation)
     { "material/", problems(simulation.material) },
     { "environment/", problems(simulation.environment) },
     { "tearing/", problems(simulation.tearing) },
+    { "strength/", problems(simulation.strength) },
     { "contact/", problems(simulation.contact) },
   };
   std::vector<std::string> rest = problems(simulation);
@@ -146,6 +147,7 @@ cloth::SimulationParams inClothFrame(const NodeParams& params)
   }
   return simulation;
 }
+  simulation.strength = cloth::turned(simulation.strength, params.cloth_pose.rotation);
 
 PlacedModel placedModel(const NodeParams& params)
 {

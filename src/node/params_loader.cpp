@@ -109,6 +109,38 @@ void readTearing(ParamReader& reader, cloth::TearRules& rules)
 void readContact(ParamReader& reader, cloth::ContactParams& contact)
 {
   reader.read("contact/friction", contact.friction);
+cloth::StrengthParams::Line strengthLine(const std::vector<double>& row)
+{
+  return { cloth::Vec3d(row[0], row[1], row[2]), cloth::Vec3d(row[3], row[4], row[5]), row[6],
+           row[7] };
+}
+
+void readStrength(ParamReader& reader, cloth::StrengthParams& strength)
+{
+  reader.read("strength/scatter", strength.scatter);
+  readSeed(reader, "strength/seed", strength.seed);
+  std::vector<std::vector<double>> spots;
+  reader.readRows("strength/spots", 5, spots);
+  for (const std::vector<double>& s : spots)
+  {
+    strength.spots.push_back({ cloth::Vec3d(s[0], s[1], s[2]), s[3], s[4] });
+  }
+  std::vector<std::vector<double>> lines;
+  reader.readRows("strength/lines", 8, lines);
+  for (const std::vector<double>& line : lines)
+  {
+    strength.lines.push_back(strengthLine(line));
+  }
+  std::vector<std::vector<double>> perforations;
+  reader.readRows("strength/perforations", 10, perforations);
+  for (const std::vector<double>& p : perforations)
+  {
+    strength.perforations.push_back({ strengthLine(p), p[8], p[9] });
+  }
+  reader.read("strength/border_factor", strength.border_factor);
+  reader.read("strength/border_width", strength.border_width);
+}
+
   reader.read("contact/thickness", contact.thickness);
   reader.read("contact/push_speed", contact.push_speed);
   reader.read("contact/floor", contact.floor);
@@ -130,6 +162,7 @@ void readAll(ParamReader& reader, NodeParams& params)
   readContact(reader, params.simulation.contact);
 }
 
+  readStrength(reader, params.simulation.strength);
 }  // namespace
 
 void readMarkers(ParamReader& reader, MarkerStyle& style)

@@ -11,6 +11,7 @@
 #include "cloth_tearing/core/particle_state.h"
 #include "cloth_tearing/core/rest_shape.h"
 #include "cloth_tearing/core/spring_table.h"
+#include "cloth_tearing/core/strength.h"
 
 namespace cloth
 {
@@ -18,12 +19,14 @@ namespace cloth
 /// What tearing knows of each element.
 struct Damage
 {
-  std::vector<char> weak;      ///< by particle: a tear ends here and may run on (3.2.2)
-  std::vector<char> hinge;     ///< by particle: a one-point connection (3.2.3)
-  std::vector<char> at_rest;   ///< by particle: its piece was put to rest
-  std::vector<char> hem;       ///< by particle: within the hem of a pin
-  std::vector<char> outer;     ///< by spring: on the border of the untorn cloth
-  std::vector<char> released;  ///< by spring: carries no load any more
+  std::vector<char> weak;        ///< by particle: a tear ends here and may run on (3.2.2)
+  std::vector<char> hinge;       ///< by particle: a one-point connection (3.2.3)
+  std::vector<char> at_rest;     ///< by particle: its piece was put to rest
+  std::vector<char> hem;         ///< by particle: within the hem of a pin
+  std::vector<double> strength;  ///< by spring: its thresholds are multiplied by this [-]
+  double least_strength = 1.0;   ///< no spring's strength, ever, is below this [-], <= 1
+  std::vector<char> outer;       ///< by spring: on the border of the untorn cloth
+  std::vector<char> released;    ///< by spring: carries no load any more
   std::vector<std::array<int, 2>> parents;  ///< by particle; itself twice if it was there first
   std::uint64_t tears = 0;                  ///< edits so far: the revision of the topology
   int pieces = 0;
@@ -60,8 +63,10 @@ struct Cloth
 
 /// @param pinned particles that stand still
 /// @param hem_width see TearRules [m]
-/// @throws TopologyError, or Refusal of a model beyond MAX_COORDINATE or without lengths and areas
+/// @param strength in the coordinates of `model`
+/// @throws TopologyError, or Refusal of a model beyond MAX_COORDINATE or without lengths and areas,
+/// or of a strength map that touches none of it
 Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const Material& material,
-                RestShapeSource rest_shape, double hem_width);
+                RestShapeSource rest_shape, double hem_width, const StrengthParams& strength = {});
 
 }  // namespace cloth

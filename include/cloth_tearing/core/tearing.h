@@ -41,8 +41,8 @@ public:
   /// The same, if only `springs`, which carry load, can be over a threshold; the rest is not read.
   double scan(const Cloth& cloth, const std::vector<int>& springs);
 
-  /// Nothing tears at a smaller strain [-].
-  double leastThreshold() const;
+  /// Nothing in this cloth tears at a smaller strain [-].
+  double leastThreshold(const Cloth& cloth) const;
 
   /// Tears what scan() found. Looks at each again first, since an earlier tear may have relieved
   /// it; what touches a particle of an earlier tear waits for the next step.
@@ -67,7 +67,8 @@ private:
     double resistance;
   };
 
-  double hemFactor(const Cloth& cloth, SpringId s) const;
+  double leastRule() const;
+  double strength(const Cloth& cloth, SpringId s) const;
   double crackBand(const Cloth& cloth, SpringId s) const;
   std::vector<Option> options(const Cloth& cloth, SpringId s) const;
   TearReading read(const Cloth& cloth, SpringId s, double own);

@@ -35,8 +35,8 @@ struct MarkerStyle
   double point_size = 0.016;  ///< weak points and held particles [m], > 0
 };
 
-/// The defaults make a usable node. `simulation` holds the height of the floor in frame_id here;
-/// see inClothFrame().
+/// The defaults make a usable node. `simulation` holds the height of the floor in frame_id and the
+/// strength map in model coordinates here; see inClothFrame().
 struct NodeParams
 {
   std::string frame_id = "world";  ///< everything is published in it and transformed into it
@@ -71,8 +71,8 @@ std::vector<std::string> problems(const MarkerStyle& style);
 /// Everything wrong with where the cloth is: frame_id and cloth_pose/position [m] in it.
 std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position);
 
-/// The simulation's parameters with the floor's height in the cloth frame, whose axes are those of
-/// frame_id and whose origin is cloth_pose.position.
+/// The simulation's parameters with the floor's height and the strength map in the cloth frame,
+/// whose axes are those of frame_id and whose origin is cloth_pose.position.
 cloth::SimulationParams inClothFrame(const NodeParams& params);
 
 /// The model that `params` name, its axes those of frame_id, its origin at cloth_pose.position,
