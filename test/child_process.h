@@ -94,6 +94,17 @@ public:
     return all;
   }
 
+  /// The same in one text.
+  std::string rest()
+  {
+    std::string all;
+    for (const std::string& line : lines())
+    {
+      all += line + "\n";
+    }
+    return all;
+  }
+
   /// timeout passes it on.
   void signal(int number) const { kill(pid_, number); }
 

@@ -143,8 +143,6 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.tearing.min_length, compiled.tearing.min_length);
   EXPECT_EQ(shipped.tearing.min_altitude, compiled.tearing.min_altitude);
 
-  EXPECT_EQ(shipped.contact.friction, compiled.contact.friction);
-  EXPECT_EQ(shipped.contact.thickness, compiled.contact.thickness);
   EXPECT_EQ(shipped.strength.scatter, compiled.strength.scatter);
   EXPECT_EQ(shipped.strength.seed, compiled.strength.seed);
   EXPECT_TRUE(shipped.strength.spots.empty());
@@ -153,6 +151,8 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.strength.border_factor, compiled.strength.border_factor);
   EXPECT_EQ(shipped.strength.border_width, compiled.strength.border_width);
 
+  EXPECT_EQ(shipped.contact.friction, compiled.contact.friction);
+  EXPECT_EQ(shipped.contact.thickness, compiled.contact.thickness);
   EXPECT_EQ(shipped.contact.push_speed, compiled.contact.push_speed);
   EXPECT_EQ(shipped.contact.floor, compiled.contact.floor);
   EXPECT_EQ(shipped.contact.floor_height, compiled.contact.floor_height);

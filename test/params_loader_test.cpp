@@ -236,6 +236,14 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "pins", "edges", list({ "middle" }), "pins: pin edge \"middle\" is not one of top, bottom" },
     { "pins", "regions", list({ list({ 0, 0, 0, 0 }) }), "pins: pin region radius [m] is 0" },
     { "tearing", "weak_tear_strain", 99.0, "tearing/weak_tear_strain" },
+    { "strength", "scatter", 1.0, "strength/scatter [-] is 1, must be at least 0 and at most 0.9" },
+    { "strength", "seed", -1, "strength/seed is -1" },
+    { "strength", "spots", list({ list({ 0, 0, 0, 0.1 }) }), "strength/spots[0] is a list of 4" },
+    { "strength", "lines", list({ list({ 0, 0, 0, 1, 0, 0, 0.1, 99 }) }),
+      "strength/lines[0] factor [-] is 99" },
+    { "strength", "perforations", list({ list({ 0, 0, 0, 1, 0, 0, 0.1, 0.5, 0.1, 2 }) }),
+      "strength/perforations[0] duty [-] is 2" },
+    { "strength", "border_factor", 0.0, "strength/border_factor [-] is 0" },
     { "contact", "friction", -0.1, "contact/friction" },
     { "contact", "bounds_min", list({ 0, 60, 0 }),
       "contact/bounds_min [m].y is 60, must be less than bounds_max.y = 50" },
@@ -247,14 +255,6 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
   {
     const std::string found = problemsWith(c.group, c.entry, c.value);
     EXPECT_NE(found.find(c.expected), std::string::npos)
-    { "strength", "scatter", 1.0, "strength/scatter [-] is 1, must be at least 0 and at most 0.9" },
-    { "strength", "seed", -1, "strength/seed is -1" },
-    { "strength", "spots", list({ list({ 0, 0, 0, 0.1 }) }), "strength/spots[0] is a list of 4" },
-    { "strength", "lines", list({ list({ 0, 0, 0, 1, 0, 0, 0.1, 99 }) }),
-      "strength/lines[0] factor [-] is 99" },
-    { "strength", "perforations", list({ list({ 0, 0, 0, 1, 0, 0, 0.1, 0.5, 0.1, 2 }) }),
-      "strength/perforations[0] duty [-] is 2" },
-    { "strength", "border_factor", 0.0, "strength/border_factor [-] is 0" },
         << c.group << "/" << c.entry << ": no '" << c.expected << "' in: " << found;
   }
 }

@@ -24,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+#include "cloth_tearing/node/tear_words.h"
+
 namespace cloth_tearing
 {
 namespace
@@ -36,9 +38,6 @@ constexpr double BEAT = 1.0 / 30.0;
 /// Radius of the gripper in mean spacings of the particles [-].
 constexpr double GRIPPER_SPACINGS = 1.5;
 
-const std::array<const char*, 4> KIND_NAMES = { "basic", "weak_point", "one_point", "released" };
-const std::array<const char*, 4> CAUSE_NAMES = { "", "grasp", "sphere", "thrown sphere" };
-
 geometry_msgs::Point toPoint(const Eigen::Vector3d& x)
 {
   geometry_msgs::Point point;
@@ -46,14 +45,6 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& x)
   point.y = x.y();
   point.z = x.z();
   return point;
-}
-
-/// Who tore it, for people.
-std::string causeOf(const TearEvent& event)
-{
-  return event.cause == TearEvent::NO_CAUSE ? "by itself"
-                                            : std::string("by ") + CAUSE_NAMES.at(event.cause) +
-                                                  " " + std::to_string(event.cause_id);
 }
 
 Eigen::Vector3d particleOf(const ClothSurface& surface, std::size_t i)
@@ -138,12 +129,7 @@ private:
     for (const TearEvent& event : message.events)
     {
       ++kinds_.at(event.kind);
-      std::printf(
-          "tear %llu %s at (%.2f, %.2f, %.2f) m, strain %.2f over %.2f, %.2f N, %s,"
-          " pieces %u\n",
-          static_cast<unsigned long long>(event.sequence), KIND_NAMES.at(event.kind),
-          event.position.x, event.position.y, event.position.z, event.strain, event.threshold,
-          event.tension, causeOf(event).c_str(), event.pieces);
+      std::printf("%s\n", inWords(event).c_str());
     }
   }
 

@@ -141,13 +141,13 @@ std::vector<std::string> problems(const NodeParams& params)
 cloth::SimulationParams inClothFrame(const NodeParams& params)
 {
   cloth::SimulationParams simulation = params.simulation;
+  simulation.strength = cloth::turned(simulation.strength, params.cloth_pose.rotation);
   if (simulation.contact.floor)
   {
     simulation.contact.floor_height -= params.cloth_pose.position.z();
   }
   return simulation;
 }
-  simulation.strength = cloth::turned(simulation.strength, params.cloth_pose.rotation);
 
 PlacedModel placedModel(const NodeParams& params)
 {

@@ -106,9 +106,6 @@ void readTearing(ParamReader& reader, cloth::TearRules& rules)
   reader.read("tearing/min_altitude", rules.min_altitude);
 }
 
-void readContact(ParamReader& reader, cloth::ContactParams& contact)
-{
-  reader.read("contact/friction", contact.friction);
 cloth::StrengthParams::Line strengthLine(const std::vector<double>& row)
 {
   return { cloth::Vec3d(row[0], row[1], row[2]), cloth::Vec3d(row[3], row[4], row[5]), row[6],
@@ -141,6 +138,9 @@ void readStrength(ParamReader& reader, cloth::StrengthParams& strength)
   reader.read("strength/border_width", strength.border_width);
 }
 
+void readContact(ParamReader& reader, cloth::ContactParams& contact)
+{
+  reader.read("contact/friction", contact.friction);
   reader.read("contact/thickness", contact.thickness);
   reader.read("contact/push_speed", contact.push_speed);
   reader.read("contact/floor", contact.floor);
@@ -159,10 +159,10 @@ void readAll(ParamReader& reader, NodeParams& params)
   readModel(reader, params);
   readPhysics(reader, params.simulation);
   readTearing(reader, params.simulation.tearing);
+  readStrength(reader, params.simulation.strength);
   readContact(reader, params.simulation.contact);
 }
 
-  readStrength(reader, params.simulation.strength);
 }  // namespace
 
 void readMarkers(ParamReader& reader, MarkerStyle& style)

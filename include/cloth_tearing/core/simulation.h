@@ -17,8 +17,8 @@
 #include "cloth_tearing/core/sphere_contact.h"
 #include "cloth_tearing/core/sphere_set.h"
 #include "cloth_tearing/core/step_observer.h"
-#include "cloth_tearing/core/surface.h"
 #include "cloth_tearing/core/strength.h"
+#include "cloth_tearing/core/surface.h"
 #include "cloth_tearing/core/tear_log.h"
 #include "cloth_tearing/core/tear_rules.h"
 #include "cloth_tearing/core/tearing.h"
@@ -32,8 +32,8 @@ struct SimulationParams
   Environment environment;
   SolverParams solver;
   TearRules tearing;
-  ContactParams contact;
   StrengthParams strength;  ///< in the coordinates of the model that it is built from
+  ContactParams contact;
   RestShapeSource rest_shape = RestShapeSource::IMPORTED;
   double max_grasp_distance = 0.05;  ///< a grasp by nearest particle reaches so far [m], > 0
   double max_speed = 200.0;          ///< of a particle; beyond is a runaway [m/s], > 0
