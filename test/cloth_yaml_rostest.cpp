@@ -70,6 +70,8 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_TRUE(shipped.cloth_pose.rotation.isApprox(compiled.cloth_pose.rotation, 1e-7));
   EXPECT_EQ(shipped.pace, compiled.pace);
   EXPECT_EQ(shipped.paused, compiled.paused);
+  EXPECT_EQ(shipped.publish_clock, compiled.publish_clock);
+  EXPECT_EQ(shipped.clock_rate, compiled.clock_rate);
   EXPECT_EQ(shipped.tf_patience, compiled.tf_patience);
   EXPECT_EQ(shipped.command_patience, compiled.command_patience);
   EXPECT_EQ(shipped.marker_rate, compiled.marker_rate);

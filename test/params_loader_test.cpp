@@ -190,6 +190,17 @@ TEST(ParamsLoader, NamesEveryProblemAtOnce)
   EXPECT_EQ(loadParams(tree).problems.size(), 6u) << found;
 }
 
+TEST(ParamsLoader, RefusesToFollowTheClockThatItPublishes)
+{
+  XmlRpcValue tree;
+  tree["pace"] = "clock";
+  EXPECT_EQ(joined(loadParams(tree).problems), "");
+  EXPECT_EQ(loadParams(tree).params.pace, cloth::Pace::CLOCK);
+  tree["publish_clock"] = true;
+  EXPECT_NE(joined(loadParams(tree).problems).find("publish_clock is true with pace clock"),
+            std::string::npos);
+}
+
 TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
 {
   const double infinity = std::numeric_limits<double>::infinity();
@@ -205,8 +216,8 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "", "frame_id", "", "frame_id is empty" },
     { "", "frame_id", "/world", "must not begin with a slash" },
     { "", "paused", 1, "must be true or false" },
-    { "", "pace", "clock", "pace is \"clock\", which is not served yet, must be one of free" },
-    { "", "pace", "", "must be one of free, step, wall" },
+    { "", "pace", "", "must be one of clock, free, step, wall" },
+    { "", "clock_rate", 0, "clock_rate [Hz] is 0" },
     { "", "solver", 1, "must be one of force_springs, xpbd" },
     { "", "time_step", "1e-3", "write 1.0e-3" },
     { "", "time_step", 0.5, "time_step [s] is 0.5" },

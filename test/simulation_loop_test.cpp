@@ -289,6 +289,137 @@ TEST(LoopPace, CanStartPaused)
   EXPECT_EQ(loop.step(0).step, 0u);
 }
 
+/// A clock that a test moves by hand, and what was said of it.
+struct HandClock
+{
+  void show(milliseconds time) { now = time.count(); }
+
+  SimulationLoop::Options options()
+  {
+    SimulationLoop::Options options;
+    options.pace = Pace::CLOCK;
+    options.patience = DEADLINE;
+    options.clock = [this]
+    { return now < 0 ? ClockFollower::Reading() : ClockFollower::Reading(milliseconds(now)); };
+    options.on_clock_jump = [this](const std::string& note) { notes.push_back(note); };
+    return options;
+  }
+
+  std::atomic<std::int64_t> now{ -1 };  // [ms]; there is none before
+  std::vector<std::string> notes;       // of the loop's thread
+};
+
+std::uint64_t stepsOf(SimulationLoop& loop)
+{
+  return loop.call([](Simulation& s) { return s.stepCount(); });
+}
+
+/// Whether the loop comes to `steps` and stays there: it looks at its clock again, and again.
+bool standsAt(SimulationLoop& loop, std::uint64_t steps)
+{
+  if (!eventually([&] { return stepsOf(loop) >= steps; }))
+  {
+    return false;
+  }
+  const Clock::time_point later = Clock::now() + milliseconds(30);  // several slices
+  return eventually([&] { return Clock::now() > later || stepsOf(loop) != steps; }) &&
+         stepsOf(loop) == steps;
+}
+
+TEST(LoopClock, IsFollowedStepByStepAndStopsTheClothWhenItStops)
+{
+  HandClock clock;
+  SimulationLoop loop(smallSimulation(), clock.options(), ignore);
+  EXPECT_TRUE(standsAt(loop, 0)) << "there is no clock";
+  EXPECT_TRUE(loop.state().awaits_clock);
+
+  clock.show(milliseconds(5000));
+  EXPECT_TRUE(standsAt(loop, 0)) << "it begins to follow";
+  EXPECT_FALSE(loop.state().awaits_clock);
+  clock.show(milliseconds(5001));
+  EXPECT_TRUE(standsAt(loop, 1));
+  clock.show(milliseconds(5400));
+  EXPECT_TRUE(standsAt(loop, 400));
+  EXPECT_EQ(loop.state().clock_jumps, 0u);
+}
+
+TEST(LoopClock, MayJumpWithoutTheCloth)
+{
+  HandClock clock;
+  clock.show(milliseconds(5000));
+  SimulationLoop loop(smallSimulation(), clock.options(), ignore);
+  ASSERT_TRUE(eventually([&] { return !loop.state().awaits_clock; }));
+
+  clock.show(milliseconds(905000));
+  ASSERT_TRUE(eventually([&] { return loop.state().clock_jumps == 1; }));
+  clock.show(milliseconds(905010));
+  EXPECT_TRUE(standsAt(loop, 10));
+  clock.show(milliseconds(10));
+  ASSERT_TRUE(eventually([&] { return loop.state().clock_jumps == 2; }));
+  clock.show(milliseconds(15));
+  EXPECT_TRUE(standsAt(loop, 15));
+
+  const auto notes = loop.call([&](Simulation&) { return clock.notes; });
+  EXPECT_EQ(notes, (std::vector<std::string>{ "the clock jumped by 900 s: skipped",
+                                              "the clock jumped by -905 s: skipped" }));
+}
+
+TEST(LoopClock, IsFollowedAnewAfterAPause)
+{
+  HandClock clock;
+  clock.show(milliseconds(5000));
+  SimulationLoop loop(smallSimulation(), clock.options(), ignore);
+  ASSERT_TRUE(eventually([&] { return !loop.state().awaits_clock; }));
+  EXPECT_THROW(loop.step(1), Refusal);
+  loop.pause();
+  EXPECT_EQ(loop.step(3).step, 3u);
+  clock.show(milliseconds(5500));
+  EXPECT_TRUE(standsAt(loop, 3));
+
+  loop.resume();
+  ASSERT_TRUE(eventually([&] { return !loop.state().awaits_clock; }));
+  clock.show(milliseconds(5504));
+
+  EXPECT_TRUE(standsAt(loop, 7)) << "what passed meanwhile is not made up for";
+}
+
+TEST(LoopClock, HasToBeThereToBeFollowed)
+{
+  EXPECT_THROW(SimulationLoop(smallSimulation(), options(Pace::CLOCK), ignore),
+               std::invalid_argument);
+}
+
+TEST(LoopPace, DoesNotChangeTheCloth)
+{
+  constexpr std::uint64_t STEPS = 150;
+  Simulation alone = *smallSimulation();
+  run(alone, STEPS);
+  for (const Pace pace : { Pace::WALL, Pace::FREE, Pace::STEP, Pace::CLOCK })
+  {
+    HandClock clock;
+    clock.show(milliseconds(0));
+    SimulationLoop::Options paced = clock.options();
+    paced.pace = pace;
+    std::atomic<std::uint64_t> hash{ 0 };
+    SimulationLoop loop(smallSimulation(), paced,
+                        [&](const Simulation& s, const StepReport&)
+                        {
+                          if (s.stepCount() == STEPS)
+                          {
+                            hash = s.stateHash();
+                          }
+                        });
+    if (pace == Pace::STEP)
+    {
+      loop.step(STEPS);
+    }
+    ASSERT_TRUE(eventually([&] { return !loop.state().awaits_clock; }));
+    clock.show(milliseconds(STEPS));
+    ASSERT_TRUE(eventually([&] { return hash != 0; }));
+    EXPECT_EQ(hash, alone.stateHash()) << static_cast<int>(pace);
+  }
+}
+
 TEST(LoopFaults, PauseItAndCutTheStepShort)
 {
   SimulationParams params = untearable();

@@ -2,6 +2,7 @@
 #include "cloth_tearing/core/simulation_loop.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace cloth
 {
@@ -19,14 +20,24 @@ constexpr std::chrono::seconds IDLE{ 1 };
 
 constexpr std::chrono::milliseconds MEASURE_INTERVAL{ 1000 };
 
+const SimulationLoop::Options& checked(const SimulationLoop::Options& options)
+{
+  if (options.pace == Pace::CLOCK && !options.clock)
+  {
+    throw std::invalid_argument("Pace::CLOCK needs a clock to follow");
+  }
+  return options;
+}
+
 }  // namespace
 
 SimulationLoop::SimulationLoop(std::unique_ptr<Simulation> simulation, const Options& options,
                                Listener listener)
-    : options_(options)
+    : options_(checked(options))
     , listener_(std::move(listener))
     , simulation_(std::move(simulation))
     , paused_(options.paused)
+    , follower_(simulation_->params().solver.time_step)
     , measured_at_(Clock::now())
     , measured_time_(simulation_->time())
     , thread_([this] { run(); })
@@ -61,11 +72,17 @@ void SimulationLoop::run()
     else if (paused_ || options_.pace == Pace::STEP)
     {
       due = Clock::now();
+      follower_.forget();
+      following_ = false;
       queue_.waitUntil(due + IDLE);
     }
     else if (options_.pace == Pace::FREE)
     {
       oneStep();
+    }
+    else if (options_.pace == Pace::CLOCK)
+    {
+      followClock();
     }
     else
     {
@@ -94,6 +111,32 @@ void SimulationLoop::keepPace(Clock::time_point& due)
   if (due > start)
   {
     queue_.waitUntil(std::max(due, start + SLICE));
+  }
+}
+
+/// Steps until simulated time has caught up with the clock that is followed, or a command waits no
+/// longer. A clock that stands still or is not there stops the cloth.
+void SimulationLoop::followClock()
+{
+  const Clock::time_point start = Clock::now();
+  const std::string jump = follower_.look(options_.clock());
+  following_ = follower_.following();
+  if (!jump.empty())
+  {
+    ++clock_jumps_;
+    if (options_.on_clock_jump)
+    {
+      options_.on_clock_jump(jump);
+    }
+  }
+  while (follower_.stepDue() && Clock::now() < start + SLICE && !paused_)
+  {
+    oneStep();
+    follower_.stepped();
+  }
+  if (!follower_.stepDue())
+  {
+    queue_.waitUntil(start + SLICE);
   }
 }
 
@@ -188,7 +231,8 @@ void SimulationLoop::reset()
 
 LoopState SimulationLoop::state() const
 {
-  return { options_.pace, paused_, real_time_factor_ };
+  const bool awaits_clock = options_.pace == Pace::CLOCK && !paused_ && !following_;
+  return { options_.pace, paused_, real_time_factor_, awaits_clock, clock_jumps_ };
 }
 
 void SimulationLoop::measure()

@@ -22,12 +22,25 @@ ros::NodeHandle servedBy(ros::NodeHandle node, ros::CallbackQueue& queue)
   return node;
 }
 
+/// ROS time; nothing as long as use_sim_time is set and /clock has not told it.
+cloth::ClockFollower::Reading rosTime()
+{
+  const ros::Time now = ros::Time::now();
+  if (now.isZero())
+  {
+    return {};
+  }
+  return std::chrono::nanoseconds(now.toNSec());
+}
+
 cloth::SimulationLoop::Options loopOptions(const NodeParams& params)
 {
   cloth::SimulationLoop::Options options;
   options.pace = params.pace;
   options.paused = params.paused;
   options.patience = std::chrono::milliseconds(static_cast<int>(1000.0 * params.command_patience));
+  options.clock = rosTime;
+  options.on_clock_jump = [](const std::string& jump) { ROS_WARN_STREAM(jump); };
   return options;
 }
 
@@ -55,10 +68,14 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , step_node_(servedBy(node, step_queue_))
     , frames_(placement_, std::chrono::duration<double>(params.tf_patience))
     , publisher_(node_, params, placement_)
+    , clock_(node_, params)
     , requests_(publisher_)
     , loop_(makeSimulation(params), loopOptions(params),
-            [this](const cloth::Simulation&, const cloth::StepReport& report)
-            { publisher_.onStep(report); })
+            [this](const cloth::Simulation& simulation, const cloth::StepReport& report)
+            {
+              clock_.onStep(simulation.time());
+              publisher_.onStep(report);
+            })
     , grasps_(context())
     , spheres_(context())
     , spinner_(REQUEST_THREADS, &queue_)

@@ -223,6 +223,7 @@ SimulationStatus toMessage(const StatusSource& source, const Placement& placemen
   message.fault = source.fault;
   message.time_step = source.time_step;
   message.real_time_factor = source.loop.real_time_factor;
+  message.clock_jumps = source.loop.clock_jumps;
   const auto tears = [&summary](cloth::TearKind kind)
   { return summary.tears[static_cast<std::size_t>(kind)]; };
   message.basic_tears = tears(cloth::TearKind::BASIC);
@@ -269,6 +270,8 @@ const char* name(cloth::Pace pace)
       return "wall";
     case cloth::Pace::FREE:
       return "free";
+    case cloth::Pace::CLOCK:
+      return "clock";
     case cloth::Pace::STEP:
       break;
   }

@@ -119,6 +119,12 @@ std::vector<std::string> problems(const NodeParams& params)
 {
   std::vector<std::string> found;
   append(found, "", placeProblems(params.frame_id, params.cloth_pose.position));
+  check(found, "clock_rate [Hz]", params.clock_rate, Range::between(0.1, 100000.0));
+  if (params.publish_clock && params.pace == cloth::Pace::CLOCK)
+  {
+    found.push_back(
+        "publish_clock is true with pace clock, must be false: it would follow its own clock");
+  }
   check(found, "tf_patience [s]", params.tf_patience, Range::between(0.0, 10.0));
   check(found, "command_patience [s]", params.command_patience, Range::between(0.01, 60.0));
   check(found, "marker_rate [Hz]", params.marker_rate, Range::between(0.1, 1000.0));

@@ -148,8 +148,7 @@ void ParamReader::noteWrongType(const std::string& name, const XmlRpcValue& valu
   note(problem);
 }
 
-std::string ParamReader::readOneOf(const std::string& name, const std::vector<std::string>& choices,
-                                   const std::set<std::string>& later)
+std::string ParamReader::readOneOf(const std::string& name, const std::vector<std::string>& choices)
 {
   XmlRpcValue given;
   if (!take(name, given))
@@ -160,13 +159,6 @@ std::string ParamReader::readOneOf(const std::string& name, const std::vector<st
   for (const std::string& choice : choices)
   {
     list += (list.empty() ? "one of " : ", ") + choice;
-  }
-  if (given.getType() == XmlRpcValue::TypeString &&
-      later.count(static_cast<const std::string&>(given)) > 0)
-  {
-    note(name + " is \"" + static_cast<const std::string&>(given) +
-         "\", which is not served yet, must be " + list);
-    return "";
   }
   if (given.getType() != XmlRpcValue::TypeString ||
       std::count(choices.begin(), choices.end(), static_cast<const std::string&>(given)) == 0)

@@ -17,9 +17,12 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.readChoice<cloth::Pace>("pace",
                                  { { "wall", cloth::Pace::WALL },
                                    { "free", cloth::Pace::FREE },
-                                   { "step", cloth::Pace::STEP } },
-                                 params.pace, { "clock" });
+                                   { "step", cloth::Pace::STEP },
+                                   { "clock", cloth::Pace::CLOCK } },
+                                 params.pace);
   reader.read("paused", params.paused);
+  reader.read("publish_clock", params.publish_clock);
+  reader.read("clock_rate", params.clock_rate);
   reader.read("tf_patience", params.tf_patience);
   reader.read("command_patience", params.command_patience);
   reader.read("marker_rate", params.marker_rate);

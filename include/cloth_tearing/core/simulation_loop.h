@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "cloth_tearing/core/clock_follower.h"
 #include "cloth_tearing/core/command_queue.h"
 #include "cloth_tearing/core/simulation.h"
 
@@ -19,9 +20,10 @@ namespace cloth
 
 enum class Pace
 {
-  WALL,  ///< real time on the steady clock
-  FREE,  ///< as fast as possible
-  STEP,  ///< only when asked to, by step()
+  WALL,   ///< real time on the steady clock
+  FREE,   ///< as fast as possible
+  STEP,   ///< only when asked to, by step()
+  CLOCK,  ///< as an outside clock goes, see ClockFollower
 };
 
 struct LoopState
@@ -29,6 +31,8 @@ struct LoopState
   Pace pace = Pace::WALL;
   bool paused = false;
   double real_time_factor = 0.0;  ///< simulated over elapsed time, over about the last second [-]
+  bool awaits_clock = false;      ///< Pace::CLOCK, running, and the clock has shown nothing yet
+  std::uint64_t clock_jumps = 0;  ///< of the clock that is followed; each was skipped
 };
 
 /// Answer to step().
@@ -56,8 +60,14 @@ public:
     Pace pace = Pace::WALL;
     bool paused = false;                         ///< start paused
     std::chrono::milliseconds patience{ 1000 };  ///< how long a command may wait before it is Busy
+
+    /// What Pace::CLOCK follows, and is told of when it jumped. Both are called on the loop's
+    /// thread and must not wait.
+    std::function<ClockFollower::Reading()> clock;
+    std::function<void(const std::string&)> on_clock_jump;
   };
 
+  /// @throws std::invalid_argument if Pace::CLOCK has no clock
   SimulationLoop(std::unique_ptr<Simulation> simulation, const Options& options, Listener listener);
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
@@ -105,6 +115,7 @@ private:
   void run();
   void oneStep();
   void keepPace(Clock::time_point& due);
+  void followClock();
   void answerRequest(const std::string& cut_short);
   void cutRequests(const std::string& why);
   void measure();
@@ -117,6 +128,9 @@ private:
   std::atomic<bool> ending_{ false };
   std::atomic<bool> paused_{ false };
   std::atomic<double> real_time_factor_{ 0.0 };
+  ClockFollower follower_;  ///< of the loop's thread
+  std::atomic<bool> following_{ false };
+  std::atomic<std::uint64_t> clock_jumps_{ 0 };
   Clock::time_point measured_at_;
   double measured_time_ = 0.0;  ///< simulated time then [s]
   std::thread thread_;          ///< last: it starts when everything else is there

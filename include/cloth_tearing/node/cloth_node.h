@@ -7,6 +7,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/node/clock_publisher.h"
 #include "cloth_tearing/node/cloth_publisher.h"
 #include "cloth_tearing/node/conversions.h"
 #include "cloth_tearing/node/frames.h"
@@ -46,6 +47,7 @@ private:
   ros::NodeHandle step_node_;
   Frames frames_;
   ClothPublisher publisher_;
+  ClockPublisher clock_;
   RequestServer requests_;
   cloth::SimulationLoop loop_;
   GraspServices grasps_;

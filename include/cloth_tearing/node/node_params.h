@@ -47,7 +47,9 @@ struct NodeParams
                              cloth::Quatd(std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0) };
 
   cloth::Pace pace = cloth::Pace::WALL;
-  bool paused = false;  ///< start paused
+  bool paused = false;         ///< start paused
+  bool publish_clock = false;  ///< /clock shows the simulation's time; not with Pace::CLOCK
+  double clock_rate = 100.0;   ///< so often, in simulated time [Hz], 0.1 to 100000
 
   std::string model_file;  ///< an OBJ file, a path or package://PACKAGE/PATH; empty = the rectangle
   cloth::ImportOptions import;

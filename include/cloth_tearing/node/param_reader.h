@@ -36,17 +36,17 @@ public:
   void readRows(const std::string& name, std::size_t columns,
                 std::vector<std::vector<double>>& rows);
 
-  /// One of several names; those in `later` are refused as not served yet.
+  /// One of several names.
   template <class Choice>
   void readChoice(const std::string& name, const std::map<std::string, Choice>& choices,
-                  Choice& value, const std::set<std::string>& later = {})
+                  Choice& value)
   {
     std::vector<std::string> names;
     for (const auto& choice : choices)
     {
       names.push_back(choice.first);
     }
-    const std::string chosen = readOneOf(name, names, later);
+    const std::string chosen = readOneOf(name, names);
     if (!chosen.empty())
     {
       value = choices.at(chosen);
@@ -70,8 +70,7 @@ private:
                    std::vector<double>& numbers);
   void noteWrongType(const std::string& name, const XmlRpc::XmlRpcValue& value,
                      const std::string& expected);
-  std::string readOneOf(const std::string& name, const std::vector<std::string>& choices,
-                        const std::set<std::string>& later);
+  std::string readOneOf(const std::string& name, const std::vector<std::string>& choices);
 
   std::map<std::string, XmlRpc::XmlRpcValue> left_;
   std::set<std::string> known_;
