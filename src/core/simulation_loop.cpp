@@ -142,6 +142,10 @@ void SimulationLoop::followClock()
 
 void SimulationLoop::oneStep()
 {
+  if (options_.before_step)
+  {
+    options_.before_step(*simulation_);
+  }
   const StepReport report = simulation_->step();
   if (!report.fault.empty())
   {

@@ -61,4 +61,25 @@ cloth::Pose Frames::toCloth(const std_msgs::Header& header) const
   }
 }
 
+Frames::Latest Frames::latest(const std::string& frame) const
+{
+  Latest latest;
+  if (frame == placement_.frame_id)
+  {
+    latest.pose.position = -placement_.origin;
+    return latest;
+  }
+  try
+  {
+    const auto found = buffer_.lookupTransform(placement_.frame_id, frame, ros::Time(0));
+    latest.pose = toClothFrame(found.transform, placement_);
+    latest.stamp = found.header.stamp;
+  }
+  catch (const tf2::TransformException& error)
+  {
+    latest.problem = error.what();
+  }
+  return latest;
+}
+
 }  // namespace cloth_tearing

@@ -61,6 +61,10 @@ public:
     bool paused = false;                         ///< start paused
     std::chrono::milliseconds patience{ 1000 };  ///< how long a command may wait before it is Busy
 
+    /// Called on the loop's thread before every step, to bring in what moves by itself elsewhere;
+    /// must not wait.
+    std::function<void(Simulation&)> before_step;
+
     /// What Pace::CLOCK follows, and is told of when it jumped. Both are called on the loop's
     /// thread and must not wait.
     std::function<ClockFollower::Reading()> clock;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <string>
 
 #include "cloth_tearing/core/types.h"
 #include "cloth_tearing/node/conversions.h"
@@ -25,6 +26,15 @@ public:
   /// node's own frame needs no tf.
   /// @throws cloth::Refusal if frame_id is empty or there is no transform in time
   cloth::Pose toCloth(const std_msgs::Header& header) const;
+
+  /// Where a frame is, by the newest transform there is. Does not wait.
+  struct Latest
+  {
+    cloth::Pose pose;     ///< cloth frame
+    ros::Time stamp;      ///< of the oldest transform on the way; 0 = all of them are static
+    std::string problem;  ///< why there is none; empty if there is
+  };
+  Latest latest(const std::string& frame) const;
 
   /// Ends all waiting, now and from now on.
   void stopWaiting() { waiting_ = false; }
