@@ -120,6 +120,9 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.solver.max_strain, compiled.solver.max_strain);
   EXPECT_EQ(shipped.solver.max_substeps, compiled.solver.max_substeps);
   EXPECT_EQ(shipped.max_grasp_distance, compiled.max_grasp_distance);
+  EXPECT_EQ(shipped.grasp_force_filter, compiled.grasp_force_filter);
+  EXPECT_EQ(shipped.max_gripper_speed, compiled.max_gripper_speed);
+  EXPECT_EQ(shipped.max_gripper_turn, compiled.max_gripper_turn);
   EXPECT_EQ(shipped.max_speed, compiled.max_speed);
   EXPECT_EQ(shipped.runaway_strain, compiled.runaway_strain);
   EXPECT_EQ(shipped.tear_log_size, compiled.tear_log_size);

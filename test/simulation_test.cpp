@@ -581,6 +581,9 @@ TEST(Parameters, AreRefusedAllAtOnceByName)
   params.tearing.tear_strain = 0.0;
   params.contact.thickness = 0.0;
   params.max_grasp_distance = 0.0;
+  params.grasp_force_filter = -1.0;
+  params.max_gripper_speed = 0.0;
+  params.max_gripper_turn = 101.0;
   params.max_speed = 0.0;
   params.runaway_strain = std::nan("");
   params.tear_log_size = 0;
@@ -594,7 +597,8 @@ TEST(Parameters, AreRefusedAllAtOnceByName)
     const std::string what = refusal.what();
     for (const char* field :
          { "stiffness [N/m]", "air_friction", "time_step", "tear_strain", "thickness",
-           "max_grasp_distance", "max_speed", "runaway_strain", "tear_log_size" })
+           "max_grasp_distance", "grasp_force_filter", "max_gripper_speed", "max_gripper_turn",
+           "max_speed", "runaway_strain", "tear_log_size" })
     {
       EXPECT_NE(what.find(field), std::string::npos) << field << "\nnot in\n" << what;
     }

@@ -61,6 +61,9 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
   const auto seen = [&](std::size_t i, Real squared)
   { note(i, springs.structural[i].rest, squared); };
   clearNotes(springs.structural.size());
+  held_.assign(state.size(), Vec3::Zero());
+  held_scale_ = 1.0 / substeps_;
+  added_impulse_.setZero();
   for (int substep = 0; substep < substeps_; ++substep)
   {
     force_.assign(state.size(), Vec3::Zero());
@@ -80,6 +83,15 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
         const Real inverse_mass = std::min(state.inverse_mass[i], inverse_mass_limit_[i]);
         state.velocity[i] += h * (acceleration[i] + inverse_mass * force_[i]);
         state.position[i] += h * state.velocity[i];
+        if (inverse_mass < state.inverse_mass[i])
+        {
+          const Real share = inverse_mass / state.inverse_mass[i] - Real(1);
+          added_impulse_ += (h * share * force_[i]).cast<double>();
+        }
+      }
+      else
+      {
+        held_[i] += force_[i];
       }
     }
   }
@@ -88,6 +100,7 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
 void ForceSprings::limitStrain(ParticleState& state, const SpringTable& springs)
 {
   const auto most = static_cast<Real>(1.0 + params_.max_strain);
+  limited_ = 0;
   for (const SpringLaw& spring : springs.structural)
   {
     if (!spring.active())
@@ -105,6 +118,7 @@ void ForceSprings::limitStrain(ParticleState& state, const SpringTable& springs)
     {
       continue;
     }
+    ++limited_;
     // Half each, as in the thesis, unless one end is held.
     const Vec3 correction = (Real(1) - limit / std::sqrt(squared)) * d;
     const Real share = wa > 0 && wb > 0 ? Real(0.5) : Real(1);

@@ -34,7 +34,10 @@ void addWind(const Cloth& cloth, const Environment& environment, std::vector<Vec
     const Vec3 on_corner = (drag * normal_speed * area / (Real(3) * twice_area)) * normal;
     for (int p : { a, b, c })
     {
-      acceleration[p] += state.inverse_mass[p] * on_corner;
+      const Real inverse_mass = state.inverse_mass[p] > 0
+                                    ? state.inverse_mass[p]
+                                    : static_cast<Real>(1.0 / cloth.rest.mass[p]);
+      acceleration[p] += inverse_mass * on_corner;
     }
   }
 }

@@ -48,10 +48,54 @@ bool turnTowards(Quatd& rotation, const Quatd& target, double angle)
   return false;
 }
 
+/// Twice the sine of half the angle from one rotation to another: nearly the angle, where that is
+/// small.
+double turnBetween(const Quatd& from, const Quatd& to)
+{
+  const Quatd way = to * from.conjugate();
+  return 2.0 * std::sqrt(way.x() * way.x() + way.y() * way.y() + way.z() * way.z());
+}
+
+/// Goes its share of the way, by the time that is left. (Of a wide turn it goes less at first: the
+/// sine stands for the angle.)
+void glideOn(Grasp& grasp, double dt, const GripperLimits& limits)
+{
+  Glide& glide = *grasp.glide;
+  const bool last = glide.time_left <= dt;
+  const double share = last ? 1.0 : dt / glide.time_left;
+  const auto part = [&](double way, double most)
+  { return last ? most : std::min(share * way, most); };
+  const double way = distanceBetween(grasp.pose, glide.goal);
+  const double turn = turnBetween(grasp.pose, glide.goal);
+  const bool there =
+      moveTowards(grasp.pose.position, glide.goal.position, part(way, limits.speed * dt));
+  const bool turned =
+      turnTowards(grasp.pose.rotation, glide.goal.rotation, part(turn, limits.turn * dt));
+  glide.time_left = std::max(0.0, glide.time_left - dt);
+  if (there && turned)
+  {
+    grasp.glide.reset();
+  }
+}
+
 }  // namespace
 
-void carry(Grasp& grasp, ParticleState& state, double dt)
+double distanceBetween(const Pose& a, const Pose& b)
 {
+  return std::sqrt((b.position - a.position).squaredNorm());
+}
+
+double turnBetween(const Pose& a, const Pose& b)
+{
+  return turnBetween(a.rotation, b.rotation);
+}
+
+void carry(Grasp& grasp, ParticleState& state, double dt, const GripperLimits& limits)
+{
+  if (grasp.glide)
+  {
+    glideOn(grasp, dt, limits);
+  }
   if (grasp.target)
   {
     const DragTarget& target = *grasp.target;

@@ -18,6 +18,9 @@ namespace
 /// How often a loose piece is looked for beyond the bounds [steps].
 constexpr std::uint64_t BOUNDS_INTERVAL = 100;
 
+/// Ends of pulls that are kept for those who ask later.
+constexpr int ENDED_PULLS = 1000;
+
 /// Solver::stiffnessNumber at which a hanging cloth stretches about twice as far as it should.
 constexpr double SOFT = 4.0;
 
@@ -88,6 +91,31 @@ private:
   StepObserver* observer_;
 };
 
+/// Springs of the triangles round held particles and their neighbours, each once.
+std::vector<SpringId> springsNear(const Mesh& mesh, const Grasp& grasp)
+{
+  std::vector<SpringId> springs;
+  const auto add = [&](TriangleId t)
+  {
+    const auto& sides = mesh.triangle(t).springs;
+    springs.insert(springs.end(), sides.begin(), sides.end());
+  };
+  const auto addNeighbours = [&](TriangleId t)
+  {
+    for (ParticleId p : mesh.triangle(t).particles)
+    {
+      mesh.forEachTriangleAt(p, add);
+    }
+  };
+  for (const Grasp::Held& held : grasp.held)
+  {
+    mesh.forEachTriangleAt(held.particle, addNeighbours);
+  }
+  std::sort(springs.begin(), springs.end());
+  springs.erase(std::unique(springs.begin(), springs.end()), springs.end());
+  return springs;
+}
+
 const SimulationParams& checked(const SimulationParams& params)
 {
   refuseIf(problems(params));
@@ -107,6 +135,9 @@ std::vector<std::string> problems(const SimulationParams& params)
   checkAir(found, params);
   check(found, "max_grasp_distance [m]", params.max_grasp_distance,
         Range::aboveUpTo(0.0, MAX_COORDINATE));
+  check(found, "grasp_force_filter [s]", params.grasp_force_filter, Range::between(0.0, 10.0));
+  check(found, "max_gripper_speed [m/s]", params.max_gripper_speed, Range::aboveUpTo(0.0, 100.0));
+  check(found, "max_gripper_turn [rad/s]", params.max_gripper_turn, Range::aboveUpTo(0.0, 100.0));
   check(found, "max_speed [m/s]", params.max_speed, Range::aboveUpTo(0.0, 1e4));
   check(found, "runaway_strain [-]", params.runaway_strain, Range::aboveUpTo(0.0, 1e4));
   check(found, "tear_log_size", params.tear_log_size, Range::between(1, 10000000));
@@ -122,6 +153,8 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
     , solver_(params.solver)
     , tearing_(params.tearing)
     , log_(params.tear_log_size)
+    , grasp_log_(params.tear_log_size)
+    , pull_log_(ENDED_PULLS)
 {
   watchSprings();
   stability_ = findStability();
@@ -184,7 +217,8 @@ StepReport Simulation::step(StepObserver* observer)
   StepReport report;
   enter(StepPhase::CARRY);
   remember();
-  grippers_.carry(cloth_.state, dt);  // held particles follow their grippers
+  // Held particles follow their grippers.
+  grippers_.carry(cloth_.state, dt, { params_.max_gripper_speed, params_.max_gripper_turn });
   enter(StepPhase::ADVANCE);
   outerAccelerations(cloth_, params_.environment, acceleration_);  // gravity, air, wind (2.1.1)
   solver_->advance(cloth_.state, cloth_.springs, acceleration_, dt);
@@ -196,6 +230,7 @@ StepReport Simulation::step(StepObserver* observer)
 
   enter(StepPhase::DETECT);
   report.max_strain = scan();
+  balance_.reset();
   enter(StepPhase::CHECK);
   report.fault = findFault(report.max_strain);
   if (!report.fault.empty())
@@ -203,13 +238,20 @@ StepReport Simulation::step(StepObserver* observer)
     undo();
     return report;
   }
+  grippers_.feel(forces(), params_.grasp_force_filter);
   enter(StepPhase::EDIT);
   ++step_;
+  if (tearing_.found())
+  {
+    keepBalance();  // edits change what it is summed up from
+    undo_.grasps = grippers_.all();
+  }
   report.tears = tearing_.tear(
       cloth_, grippers_.all(),
       [this](const Vec3& x) { return isInsideObstacle(x, spheres_.all(), params_.contact); },
       report.postponed);
   record(report);
+  concludeGrasps(report.tears);
   if (!report.tears.empty())
   {
     checkStability(report.notes);
@@ -248,6 +290,7 @@ void Simulation::undo()
   cloth_.state.velocity = undo_.velocity;
   grippers_.all() = undo_.grasps;
   spheres_.all() = undo_.spheres;
+  balance_ = ForceBalance();
 }
 
 std::string Simulation::findFault(double max_strain) const
@@ -334,14 +377,70 @@ TearCause Simulation::causeOf(const Vec3d& position) const
   return nearest.kind == CauseKind::NONE ? TearCause{} : nearest;
 }
 
+StepForces Simulation::forces() const
+{
+  return { cloth_,
+           *solver_,
+           acceleration_,
+           undo_.velocity,
+           params_.environment.gravity,
+           contact_.impulse(),
+           params_.solver.time_step };
+}
+
+ForceBalance Simulation::forceBalance() const
+{
+  return balance_ ? *balance_ : forces().balance();
+}
+
+/// Sums up the last step before the cloth changes.
+void Simulation::keepBalance()
+{
+  balance_ = forceBalance();
+}
+
+void Simulation::concludeGrasps(const std::vector<TearEvent>& tears)
+{
+  if (!grippers_.all().empty())
+  {
+    if (grippers_.mayLetGo())
+    {
+      keepBalance();
+    }
+    grippers_.conclude(cloth_, undo_.grasps, tears, params_.solver.time_step);
+    publish();
+  }
+}
+
+/// Numbers and logs what has happened to grasps and pulls.
+void Simulation::publish()
+{
+  Grippers::News news = grippers_.takeNews();
+  for (GraspEvent& event : news.events)
+  {
+    event.epoch = epoch_;
+    event.step = step_;
+    event.time = time();
+    grasp_log_.add(event);
+  }
+  for (PullEnd& end : news.ends)
+  {
+    end.last_tear = log_.range()[1];
+    end.pieces = cloth_.damage.pieces;
+    pull_log_.add(end);
+  }
+}
+
 void Simulation::reset()
 {
+  grippers_.releaseAll(cloth_, "the cloth was reset");
+  publish();
   cloth_ = untorn_;
   solver_ = SolverHandle(params_.solver);
   watchSprings();
   stability_ = findStability();
-  grippers_.clear();
   spheres_.clear();
+  balance_ = ForceBalance();
   tears_ = {};
   start_time_ = time();
   step_ = 0;
@@ -350,7 +449,112 @@ void Simulation::reset()
 
 GraspTaken Simulation::grasp(const GraspRequest& request)
 {
-  return grippers_.take(cloth_, request, params_.max_grasp_distance);
+  keepBalance();
+  const GraspTaken taken = grippers_.take(cloth_, request, params_.max_grasp_distance);
+  publish();
+  return taken;
+}
+
+void Simulation::drag(std::uint64_t grasp, const DragTarget& target)
+{
+  grippers_.drag(grasp, target);
+  publish();
+}
+
+void Simulation::steer(std::uint64_t grasp, const Pose& pose, double time)
+{
+  grippers_.steer(grasp, pose, time);
+  publish();
+}
+
+void Simulation::follow(std::uint64_t grasp, const Pose& pose, double time)
+{
+  grippers_.follow(grasp, pose, time);
+  publish();
+}
+
+void Simulation::frameLost(std::uint64_t grasp, const std::string& reason)
+{
+  grippers_.frameLost(grasp, reason);
+  publish();
+}
+
+void Simulation::frameFound(std::uint64_t grasp)
+{
+  grippers_.frameFound(grasp);
+  publish();
+}
+
+std::uint64_t Simulation::pull(const PullRequest& request)
+{
+  const std::uint64_t id = grippers_.pull(request, log_.range()[1] + 1);
+  publish();
+  return id;
+}
+
+bool Simulation::cancelPull(std::uint64_t pull)
+{
+  keepBalance();
+  const bool was_there = grippers_.cancelPull(cloth_, pull);
+  publish();
+  return was_there;
+}
+
+std::vector<PullProgress> Simulation::pulls() const
+{
+  std::vector<PullProgress> under_way;
+  for (const Grasp& grasp : grippers_.all())
+  {
+    if (grasp.pull)
+    {
+      under_way.push_back(progressOf(grasp));
+    }
+  }
+  return under_way;
+}
+
+void Simulation::release(std::uint64_t grasp, const std::string& reason)
+{
+  keepBalance();
+  grippers_.release(cloth_, grasp, reason);
+  publish();
+}
+
+int Simulation::releaseAll()
+{
+  keepBalance();
+  const int released = grippers_.releaseAll(cloth_, "released on request, with all others");
+  publish();
+  return released;
+}
+
+int Simulation::pin(const PinRequest& request)
+{
+  keepBalance();
+  const int changed = cloth::pin(cloth_, request);
+  grippers_.findLoosePieces(cloth_, "");
+  publish();
+  return changed;
+}
+
+int Simulation::unpin(const PinRequest& request)
+{
+  keepBalance();
+  const int changed = cloth::unpin(cloth_, request);
+  grippers_.findLoosePieces(cloth_, "no pin holds it any more");
+  publish();
+  return changed;
+}
+
+double Simulation::utilisationNear(std::uint64_t grasp) const
+{
+  Tearing reader = tearing_;  // reading needs scratch of its own
+  return reader.worst(cloth_, springsNear(cloth_.mesh, grippers_.find(grasp))).utilisation();
+}
+
+void Simulation::moveSphere(std::uint64_t id, const Vec3d& center, double time)
+{
+  spheres_.moveTo(id, center, time, params_.contact, params_.solver.time_step);
 }
 
 void Simulation::setSpheres(const std::vector<Sphere>& spheres)
@@ -383,6 +587,7 @@ void Simulation::place(const std::vector<Vec3>& positions)
           MAX_COORDINATE);
   }
   refuseIf(found);
+  keepBalance();
   cloth_.state.position = positions;
   std::fill(cloth_.state.velocity.begin(), cloth_.state.velocity.end(), Vec3::Zero());
 }

@@ -152,8 +152,10 @@ Vec3 velocityChange(const Vec3& relative, const Vec3& normal, Real friction)
   return approach * normal - (slip_speed > 0 ? Vec3(rubbed / slip_speed * slip) : Vec3::Zero());
 }
 
-void resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
+/// @return what it does to the momentum of the cloth [N s]
+Vec3d resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
 {
+  Vec3d impulse = Vec3d::Zero();
   const auto h = static_cast<Real>(dt);
   const auto height = static_cast<Real>(params.floor_height + params.thickness);
   const auto friction = static_cast<Real>(params.floor_friction);
@@ -166,12 +168,14 @@ void resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
     {
       const Vec3 change = velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
       state.velocity[i] += change;
+      impulse += change.cast<double>() / state.inverse_mass[i];
       // What rubs off the speed rubs off the way too; what sticks has not moved at all.
       const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
       state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + h * change);
       state.position[i].z() = std::max(z, std::min(height, state.previous[i].z() + push));
     }
   }
+  return impulse;
 }
 
 /// The largest inverse mass of a corner; 0 if all are held.
@@ -239,6 +243,7 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
   {
     const Real share = contact.weights[k] * state.inverse_mass[p[k].index] / yielding;
     Vec3& corner_velocity = state.velocity[p[k].index];
+    const Vec3 velocity_before = corner_velocity;
     state.position[p[k].index] += share * shift;
     corner_velocity += share * change;
     // Beside a held corner the contact asks again each step: none is to run ahead of the ball.
@@ -247,6 +252,11 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
     if (held && ahead > most_ahead)
     {
       corner_velocity -= (ahead - most_ahead) * contact.normal;
+    }
+    if (share > 0)
+    {
+      const Vec3 gained = corner_velocity - velocity_before;
+      sphere.force -= gained.cast<double>() / (dt * state.inverse_mass[p[k].index]);
     }
   }
   if (sphere.mass > 0.0)
@@ -438,13 +448,16 @@ void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
 void SphereContact::resolve(Cloth& cloth, std::vector<Sphere>& spheres, const ContactParams& params,
                             double dt)
 {
+  impulse_.setZero();
   for (Sphere& sphere : spheres)
   {
+    sphere.force.setZero();
     resolveSphere(cloth, sphere, params, dt);
+    impulse_ -= dt * sphere.force;
   }
   if (params.floor)
   {
-    resolveFloor(cloth, params, dt);
+    impulse_ += resolveFloor(cloth, params, dt);
   }
 }
 

@@ -18,6 +18,22 @@ constexpr std::size_t MOST_SPHERES = 1000;
 /// A streamed sphere takes no longer than this to where it is placed [s].
 constexpr double LONGEST_GLIDE = 0.1;
 
+/// Lets a sphere go to `center` [m] in `time` [s], unless that is no motion any more: then it is
+/// placed there anew.
+void send(Sphere& sphere, const Vec3d& center, double time, const ContactParams& params)
+{
+  const Vec3d jump = center - sphere.center;
+  const bool motion = jump.norm() <= params.max_sphere_speed * time;
+  sphere.jump = motion ? jump : Vec3d(Vec3d::Zero());
+  sphere.jump_time = motion ? std::min(time, LONGEST_GLIDE) : 0.0;
+  if (!motion)
+  {
+    sphere.center = center;
+    sphere.fresh = true;
+    sphere.out = Vec3d::Zero();
+  }
+}
+
 }  // namespace
 
 void SphereSet::set(const std::vector<Sphere>& spheres, const ContactParams& params,
@@ -63,24 +79,40 @@ Sphere SphereSet::streamed(const Sphere& set, const ContactParams& params, doubl
   sphere.age = 0.0;
   sphere.fresh = true;
   sphere.out = Vec3d::Zero();
-  const auto known = std::find_if(spheres_.begin(), spheres_.end(),
-                                  [&](const Sphere& s)
-                                  { return s.source == SphereSource::STREAMED && s.id == set.id; });
+  const auto known = find(set.id);
   if (known != spheres_.end())
   {
-    // It goes there in the time since it was last heard of, unless that is no motion any more.
-    const Vec3d jump = set.center - known->center;
-    const double time = std::max(known->age, time_step);
-    if (jump.norm() <= params.max_sphere_speed * time)
-    {
-      sphere.center = known->center;
-      sphere.fresh = known->fresh;
-      sphere.out = known->out;
-      sphere.jump = jump;
-      sphere.jump_time = std::min(time, LONGEST_GLIDE);
-    }
+    sphere.center = known->center;
+    sphere.fresh = known->fresh;
+    sphere.out = known->out;
+    send(sphere, set.center, std::max(known->age, time_step), params);
   }
   return sphere;
+}
+
+std::vector<Sphere>::const_iterator SphereSet::find(std::uint64_t id) const
+{
+  return std::find_if(spheres_.begin(), spheres_.end(),
+                      [id](const Sphere& s)
+                      { return s.source == SphereSource::STREAMED && s.id == id; });
+}
+
+void SphereSet::moveTo(std::uint64_t id, const Vec3d& center, double time,
+                       const ContactParams& params, double time_step)
+{
+  const auto known = find(id);
+  if (known == spheres_.end())
+  {
+    throw Refusal("there is no sphere " + std::to_string(id));
+  }
+  std::vector<std::string> found;
+  check(found, "sphere " + std::to_string(id) + ": center [m]", center, MAX_COORDINATE);
+  check(found, "time [s]", time, Range::between(0.0, 1e6));
+  refuseIf(found);
+  Sphere& sphere = spheres_[static_cast<std::size_t>(known - spheres_.begin())];
+  sphere.age = 0.0;
+  sphere.time_left = params.sphere_timeout;
+  send(sphere, center, std::max(time, time_step), params);
 }
 
 std::uint64_t SphereSet::throwOne(const ThrowRequest& request)

@@ -1,6 +1,7 @@
 // Mixes the state word by word.
 #include "cloth_tearing/core/state_hash.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace cloth
@@ -49,7 +50,16 @@ private:
   std::uint64_t value_ = 0xcbf29ce484222325ull;
 };
 
-void addParticles(Hash& hash, const Cloth& cloth)
+/// The place of a grasp in the list, from 1; 0 for none. Ids are numbers of a life, not of a state.
+int placeOf(const std::vector<Grasp>& grasps, std::uint64_t id)
+{
+  const auto found = std::lower_bound(grasps.begin(), grasps.end(), id,
+                                      [](const Grasp& g, std::uint64_t i) { return g.id < i; });
+  const bool there = found != grasps.end() && found->id == id;
+  return there ? 1 + static_cast<int>(found - grasps.begin()) : 0;
+}
+
+void addParticles(Hash& hash, const Cloth& cloth, const std::vector<Grasp>& grasps)
 {
   for (int i = 0; i < cloth.mesh.particleCount(); ++i)
   {
@@ -57,7 +67,7 @@ void addParticles(Hash& hash, const Cloth& cloth)
     hash.add(cloth.state.velocity[i]);
     hash.add(cloth.damage.weak[i] | cloth.damage.hinge[i] << 1 | cloth.damage.at_rest[i] << 2 |
              static_cast<int>(cloth.attachments[i].kind) << 3);
-    hash.add(cloth.attachments[i].grasp);
+    hash.add(placeOf(grasps, cloth.attachments[i].grasp));
   }
 }
 
@@ -94,7 +104,6 @@ void addPose(Hash& hash, const Pose& pose)
 
 void addGrasp(Hash& hash, const Grasp& grasp)
 {
-  hash.add(grasp.id);
   addPose(hash, grasp.pose);
   for (const Grasp::Held& held : grasp.held)
   {
@@ -108,11 +117,27 @@ void addGrasp(Hash& hash, const Grasp& grasp)
     hash.add(grasp.target->linear_speed);
     hash.add(grasp.target->angular_speed);
   }
+  hash.add(grasp.glide ? 1 : 0);
+  if (grasp.glide)
+  {
+    addPose(hash, grasp.glide->goal);
+    hash.add(grasp.glide->time_left);
+  }
+  hash.add(grasp.pull ? 1 : 0);
+  if (grasp.pull)
+  {
+    hash.add(grasp.pull->stop_force);
+    hash.add(grasp.pull->stop_tears);
+    hash.add(grasp.pull->tears);
+    hash.add(grasp.pull->release ? 1 : 0);
+  }
+  hash.add(grasp.force_limit);
+  hash.add(grasp.smoothed.force);
+  hash.add(grasp.smoothed.torque);
 }
 
 void addSphere(Hash& hash, const Sphere& sphere)
 {
-  hash.add(sphere.id);
   hash.add(static_cast<int>(sphere.source));
   hash.add(sphere.center);
   hash.add(sphere.velocity);
@@ -122,6 +147,8 @@ void addSphere(Hash& hash, const Sphere& sphere)
   hash.add(sphere.radius);
   hash.add(sphere.mass);
   hash.add(sphere.time_left);
+  hash.add(sphere.fresh ? 1 : 0);
+  hash.add(sphere.out);
 }
 
 }  // namespace
@@ -130,7 +157,7 @@ std::uint64_t stateHash(const Cloth& cloth, const std::vector<Grasp>& grasps,
                         const std::vector<Sphere>& spheres)
 {
   Hash hash;
-  addParticles(hash, cloth);
+  addParticles(hash, cloth, grasps);
   addTopology(hash, cloth);
   for (const Grasp& grasp : grasps)
   {

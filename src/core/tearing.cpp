@@ -58,8 +58,27 @@ int heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
   return held;
 }
 
-/// A held particle that was doubled stays held on the side with more of the gripper's particles;
-/// if there is none such, on the side that the pull does not take away.
+/// The patch that a gripper holds was parted between its jaws: they go on holding both sides.
+void holdBoth(Cloth& cloth, std::vector<Grasp>& grasps, ParticleId p, ParticleId copy)
+{
+  const Attachment attachment = cloth.attachments[p.index];
+  const Vec3 velocity = cloth.state.velocity[p.index];
+  cloth.attach(copy, attachment);
+  cloth.state.velocity[copy.index] = velocity;
+  for (Grasp& grasp : grasps)
+  {
+    const auto held = std::find_if(grasp.held.begin(), grasp.held.end(),
+                                   [p](const Grasp::Held& h) { return h.particle == p; });
+    if (held != grasp.held.end())
+    {
+      const Vec3d offset = held->offset;
+      grasp.held.push_back({ copy, offset });
+    }
+  }
+}
+
+/// A held particle that was doubled stays held on the side where the gripper holds neighbours of
+/// it, which may be both; if there are none such, on the side that the pull does not take away.
 void keepHeld(Cloth& cloth, std::vector<Grasp>& grasps, const Edit& edit, SpringId stretched)
 {
   const ParticleId p = edit.particles.front().parents[0];
@@ -71,6 +90,11 @@ void keepHeld(Cloth& cloth, std::vector<Grasp>& grasps, const Edit& edit, Spring
   }
   const int here = heldNeighbours(cloth, p, attachment.grasp);
   const int there = heldNeighbours(cloth, copy, attachment.grasp);
+  if (here > 0 && there > 0)
+  {
+    holdBoth(cloth, grasps, p, copy);
+    return;
+  }
   const bool pulled_here = cloth.mesh.spring(stretched).joins(p);
   if (there < here || (there == here && !pulled_here))
   {
@@ -509,13 +533,22 @@ void Tearing::conclude(Cloth& cloth, const Edit& edit, TearEvent& event)
 
 TearReading Tearing::worst(const Cloth& cloth)
 {
-  // A reading is at most the spring's own strain over its threshold: look in that order.
-  std::vector<TearReading> bounds;
+  std::vector<SpringId> all(cloth.mesh.springCount());
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
   {
-    if (cloth.springs.structural[i].active())
+    all[i] = { i };
+  }
+  return worst(cloth, all);
+}
+
+TearReading Tearing::worst(const Cloth& cloth, const std::vector<SpringId>& springs)
+{
+  // A reading is at most the spring's own strain over its threshold: look in that order.
+  std::vector<TearReading> bounds;
+  for (SpringId s : springs)
+  {
+    if (cloth.springs.structural[s.index].active())
     {
-      const SpringId s{ i };
       const double own = cloth.strain(s);
       TearReading bound = read(cloth, s, std::min(own, 0.0));
       bound.strain = own;

@@ -12,9 +12,10 @@ namespace
 /// come from ways, not from differences of places: these are too coarse for a short step.
 /// @param see told of each spring's index and its squared length, when the step began or when its
 /// turn came, whichever was longer
+/// @param held gathers the pulls on particles that do not move, to be divided by dt^2 [kg m]
 template <class See>
 void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Real dt,
-           std::vector<Vec3>& displacement, const See& see)
+           std::vector<Vec3>& displacement, std::vector<Vec3>& held, const See& see)
 {
   for (std::size_t i = 0; i < springs.size(); ++i)
   {
@@ -34,7 +35,7 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     const Real squared = d.squaredNorm();
     see(i, std::max(before.squaredNorm(), squared));
     const Real length = std::sqrt(squared);
-    if (!(w > 0) || !(length > 0))
+    if (!(length > 0))
     {
       continue;
     }
@@ -44,6 +45,14 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     const Real lambda = (stiffness * (length - spring.rest) + damping * (d.dot(moved) / length)) /
                         ((stiffness + damping) * w + Real(1));
     const Real pull = lambda / length;
+    if (wa == 0)
+    {
+      held[spring.a] += pull * d;
+    }
+    if (wb == 0)
+    {
+      held[spring.b] -= pull * d;
+    }
     a += (wa * pull) * d;
     b -= (wb * pull) * d;
   }
@@ -61,16 +70,24 @@ void XpbdSolver::advance(ParticleState& state, const SpringTable& springs,
 {
   const auto h = static_cast<Real>(dt);
   displacement_.resize(state.size());
+  held_.resize(state.size());
+  held_scale_ = 1.0 / (dt * dt);
   for (int i = 0; i < state.size(); ++i)
   {
-    displacement_[i] = state.inverse_mass[i] > 0
-                           ? Vec3(h * (state.velocity[i] + h * acceleration[i]))
-                           : Vec3(state.position[i] - state.previous[i]);
+    if (state.inverse_mass[i] > 0)
+    {
+      displacement_[i] = h * (state.velocity[i] + h * acceleration[i]);
+    }
+    else
+    {
+      displacement_[i] = state.position[i] - state.previous[i];
+      held_[i].setZero();
+    }
   }
   clearNotes(springs.structural.size());
-  solve(state, springs.structural, h, displacement_,
+  solve(state, springs.structural, h, displacement_, held_,
         [&](std::size_t i, Real squared) { note(i, springs.structural[i].rest, squared); });
-  solve(state, springs.bend_shear, h, displacement_, [](std::size_t, Real) {});
+  solve(state, springs.bend_shear, h, displacement_, held_, [](std::size_t, Real) {});
   for (int i = 0; i < state.size(); ++i)
   {
     if (state.inverse_mass[i] > 0)

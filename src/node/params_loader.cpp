@@ -75,6 +75,9 @@ void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
   reader.read("max_strain", simulation.solver.max_strain);
   reader.read("max_substeps", simulation.solver.max_substeps);
   reader.read("max_grasp_distance", simulation.max_grasp_distance);
+  reader.read("grasp_force_filter", simulation.grasp_force_filter);
+  reader.read("max_gripper_speed", simulation.max_gripper_speed);
+  reader.read("max_gripper_turn", simulation.max_gripper_turn);
   reader.read("max_speed", simulation.max_speed);
   reader.read("runaway_strain", simulation.runaway_strain);
   reader.read("tear_log_size", simulation.tear_log_size);

@@ -20,6 +20,8 @@ public:
   void advance(ParticleState& state, const SpringTable& springs,
                const std::vector<Vec3>& acceleration, double dt) override;
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
+  Vec3d addedImpulse() const override { return added_impulse_; }
+  int limited() const override { return limited_; }
   Stability checkStability(const ParticleState& state, const SpringTable& springs, double dt,
                            double air_rate) override;
 
@@ -30,6 +32,8 @@ private:
 
   SolverParams params_;
   int substeps_ = 1;
+  int limited_ = 0;                       ///< springs that limitStrain() drew together
+  Vec3d added_impulse_ = Vec3d::Zero();   ///< on slivers treated as heavier than they are [N s]
   std::vector<Vec3> force_;               ///< by particle [N]
   std::vector<Real> inverse_mass_limit_;  ///< by particle [1/kg]: lighter ones are treated as this
   std::vector<double> stiffness_sum_;     ///< by particle, scratch of checkStability [N/m]

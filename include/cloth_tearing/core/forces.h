@@ -11,7 +11,8 @@ namespace cloth
 
 /// Writes the acceleration of every particle [m/s^2] (2.1.1). Wind presses on each triangle along
 /// its normal, in proportion to its area (its rest area at most) and to the normal speed of the air
-/// against it (Provot 1995); held particles get none.
+/// against it (Provot 1995). Held particles get it too: it does not move them, but whoever holds
+/// them feels it.
 void outerAccelerations(const Cloth& cloth, const Environment& environment,
                         std::vector<Vec3>& acceleration);
 

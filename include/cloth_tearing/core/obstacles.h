@@ -33,6 +33,7 @@ struct Sphere
   Vec3d out =
       Vec3d::Zero();  ///< to where it parts cloth that it was placed into; zero: from its centre
   double age = 0.0;   ///< since it was set [s]
+  Vec3d force = Vec3d::Zero();  ///< that the cloth exerted on it in the last step [N]
   double time_left = 0.0;  ///< [s]: STREAMED moves on so long and then stands, THROWN is gone then
 };
 

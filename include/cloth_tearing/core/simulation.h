@@ -3,14 +3,18 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/cloth_model.h"
+#include "cloth_tearing/core/event_log.h"
+#include "cloth_tearing/core/force_balance.h"
 #include "cloth_tearing/core/grippers.h"
 #include "cloth_tearing/core/loose_pieces.h"
 #include "cloth_tearing/core/material.h"
+#include "cloth_tearing/core/pin_commands.h"
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/rest_shape.h"
 #include "cloth_tearing/core/solver.h"
@@ -19,7 +23,6 @@
 #include "cloth_tearing/core/step_observer.h"
 #include "cloth_tearing/core/strength.h"
 #include "cloth_tearing/core/surface.h"
-#include "cloth_tearing/core/tear_log.h"
 #include "cloth_tearing/core/tear_rules.h"
 #include "cloth_tearing/core/tearing.h"
 
@@ -36,9 +39,12 @@ struct SimulationParams
   ContactParams contact;
   RestShapeSource rest_shape = RestShapeSource::IMPORTED;
   double max_grasp_distance = 0.05;  ///< a grasp by nearest particle reaches so far [m], > 0
+  double grasp_force_filter = 0.01;  ///< time constant of a grasp's smoothed wrench [s]; 0 = none
+  double max_gripper_speed = 5.0;    ///< of grasps that follow a frame or a stream [m/s], > 0
+  double max_gripper_turn = 20.0;    ///< of the same [rad/s], > 0
   double max_speed = 200.0;          ///< of a particle; beyond is a runaway [m/s], > 0
   double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
-  int tear_log_size = 100000;    ///< events kept for those who ask later, >= 1
+  int tear_log_size = 100000;    ///< tears kept for those who ask later, and events of grasps, >= 1
 };
 
 /// Everything wrong with `params`, one sentence each, naming the field; empty if they can be used.
@@ -99,20 +105,56 @@ public:
   /// @throws Refusal if nothing is within reach, or a particle is held by another grasp
   GraspTaken grasp(const GraspRequest& request);
 
-  /// Sends a grasp on its way; a second drag replaces the first.
-  /// @throws Refusal if there is no such grasp or the target is not usable
-  void drag(std::uint64_t grasp, const DragTarget& target) { grippers_.drag(grasp, target); }
+  /// Sends a grasp on its way; a second drag replaces the first, and ends a pull.
+  /// @throws Refusal if there is no such grasp, it follows a frame, or the target is not usable
+  void drag(std::uint64_t grasp, const DragTarget& target);
+
+  /// Lets a grasp glide to `pose` in `time` [s], but no faster than max_gripper_speed and
+  /// max_gripper_turn, and stand there; replaces a drag, and ends a pull. For streamed targets.
+  /// @throws Refusal if there is no such grasp, it follows a frame, or pose or time are not usable
+  void steer(std::uint64_t grasp, const Pose& pose, double time);
+
+  /// The same for a grasp that follows a frame, to where the frame is now.
+  /// @throws Refusal if there is no such grasp, it follows none, or pose or time are not usable
+  void follow(std::uint64_t grasp, const Pose& pose, double time);
+
+  /// Notes that the frame of a grasp is missing; whether it lets go then is the caller's matter.
+  /// @throws Refusal if there is no such grasp or it follows none
+  void frameLost(std::uint64_t grasp, const std::string& reason);
+
+  /// Notes that it is back. @throws Refusal if there is no such grasp or it follows none
+  void frameFound(std::uint64_t grasp);
+
+  /// Begins a pull; the one before on the same grasp is cancelled. It is looked at in the end of
+  /// each step, so that it ends in the very step in which its condition holds: see pullEndsSince().
+  /// @return its id
+  /// @throws Refusal if there is no such grasp, it follows a frame, or the request is not usable
+  std::uint64_t pull(const PullRequest& request);
+
+  /// Its grasp stands still where it is. @return whether there was such a pull
+  bool cancelPull(std::uint64_t pull);
 
   /// Lets go. @throws Refusal if there is no such grasp
-  void release(std::uint64_t grasp) { grippers_.release(cloth_, grasp); }
+  void release(std::uint64_t grasp, const std::string& reason = "released on request");
 
   /// Lets go of everything. @return how many grasps there were
-  int releaseAll() { return grippers_.releaseAll(cloth_); }
+  int releaseAll();
+
+  /// Particles stand still from now on, until unpin() or reset(). See cloth::pin.
+  int pin(const PinRequest& request);
+
+  /// Particles are free again, until reset(). See cloth::unpin.
+  int unpin(const PinRequest& request);
 
   /// The full set of streamed spheres: known ids move on from where they are, others are new,
   /// missing ones vanish.
   /// @throws Refusal naming everything wrong with them, twice the same id among it
   void setSpheres(const std::vector<Sphere>& spheres);
+
+  /// Sends a streamed sphere to `center` [m] in `time` [s], without a jump: for one that follows a
+  /// frame, between sets. Faster than max_sphere_speed it is placed there anew.
+  /// @throws Refusal if there is no such sphere, or center or time are not usable
+  void moveSphere(std::uint64_t id, const Vec3d& center, double time);
 
   /// @return the id of the thrown sphere
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
@@ -148,6 +190,40 @@ public:
   /// The oldest and newest tear number in the log; {1, 0} if there was none.
   std::array<std::uint64_t, 2> loggedTears() const { return log_.range(); }
 
+  /// Events of grasps from sequence number `first` on, at most `most`: those of steps and those of
+  /// commands.
+  std::vector<GraspEvent> graspEventsSince(std::uint64_t first, std::size_t most) const
+  {
+    return grasp_log_.since(first, most);
+  }
+
+  /// The oldest and newest number of them in the log; {1, 0} if there was none.
+  std::array<std::uint64_t, 2> loggedGraspEvents() const { return grasp_log_.range(); }
+
+  /// How pulls ended, from sequence number `first` on, at most `most`. The last 1000 are kept.
+  std::vector<PullEnd> pullEndsSince(std::uint64_t first, std::size_t most) const
+  {
+    return pull_log_.since(first, most);
+  }
+
+  /// The oldest and newest number of an ended pull in the log; {1, 0} if there was none.
+  std::array<std::uint64_t, 2> loggedPullEnds() const { return pull_log_.range(); }
+
+  /// Pulls that are under way, by ascending grasp.
+  std::vector<PullProgress> pulls() const;
+
+  /// Forces on the whole cloth in the last step; zero before the first, and after one that was
+  /// undone. Summed up when asked for.
+  ForceBalance forceBalance() const;
+
+  /// How many springs the limiter of the force springs drew together in the last step: what hangs
+  /// on them pulls less on grasps and pins than it weighs.
+  int limitedSprings() const { return solver_->limited(); }
+
+  /// Strain over threshold where the cloth at a grasp, and one ring round it, is nearest to tearing
+  /// [-]; 1 = tears. @throws Refusal if there is no such grasp
+  double utilisationNear(std::uint64_t grasp) const;
+
   Snapshot snapshot() const;
   Summary summary() const;
   std::uint64_t stateHash() const;
@@ -171,6 +247,10 @@ private:
   void refuseTooSoft(const TearRules& rules) const;
   void record(StepReport& report);
   TearCause causeOf(const Vec3d& position) const;
+  StepForces forces() const;
+  void keepBalance();
+  void concludeGrasps(const std::vector<TearEvent>& tears);
+  void publish();
 
   SimulationParams params_;
   Cloth untorn_;  ///< as built, for reset()
@@ -184,10 +264,13 @@ private:
   std::vector<Vec3> acceleration_;  ///< scratch of a step [m/s^2]
   Undo undo_;
   Stability stability_;
-  TearLog log_;
-  std::array<std::uint64_t, TEAR_KINDS> tears_{};  ///< by kind, since the last reset
-  Stability start_stability_;                      ///< of the cloth as built
-  double start_time_ = 0.0;                        ///< of the epoch [s]
+  EventLog<TearEvent> log_;
+  EventLog<GraspEvent> grasp_log_;
+  EventLog<PullEnd> pull_log_;
+  std::optional<ForceBalance> balance_ = ForceBalance();  ///< of the last step, once summed up
+  std::array<std::uint64_t, TEAR_KINDS> tears_{};         ///< by kind, since the last reset
+  Stability start_stability_;                             ///< of the cloth as built
+  double start_time_ = 0.0;                               ///< of the epoch [s]
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
 };

@@ -60,6 +60,17 @@ public:
   /// What the last advance() noted: indices of springs, ascending.
   const std::vector<int>& stretched() const { return stretched_; }
 
+  /// Sum of the spring forces on a particle of inverse mass 0 in the last advance() [N]: who holds
+  /// it feels that.
+  Vec3d heldForce(int particle) const { return held_scale_ * held_[particle].cast<double>(); }
+
+  /// What the last advance() did to momentum beyond all forces [N s].
+  virtual Vec3d addedImpulse() const { return Vec3d::Zero(); }
+
+  /// How many springs the last limitStrain() drew together. What hangs on them pulls less on its
+  /// holders than it weighs: the limiter moves positions, not velocities.
+  virtual int limited() const { return 0; }
+
   /// What it takes to stay stable at a step of `dt` [s] in air that brakes by `air_rate` [1/s]; to
   /// be asked anew after each tear, which makes lighter particles. The solver keeps to the answer
   /// from then on. By default it is stable at any step.
@@ -99,6 +110,9 @@ protected:
     }
   }
 
+  std::vector<Vec3> held_;   ///< by particle, of those of inverse mass 0: see heldForce()
+  double held_scale_ = 0.0;  ///< to [N]
+
 private:
   std::vector<int> stretched_;
   Real watched_ = std::numeric_limits<Real>::max();  ///< squared length over squared rest length
@@ -121,6 +135,7 @@ public:
   SolverHandle& operator=(SolverHandle&&) = default;
   ~SolverHandle() = default;
 
+  const Solver& operator*() const { return *solver_; }
   Solver* operator->() { return solver_.get(); }
   const Solver* operator->() const { return solver_.get(); }
 

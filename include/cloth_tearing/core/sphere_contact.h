@@ -28,9 +28,13 @@ public:
   /// dynamic spheres.
   void resolve(Cloth& cloth, std::vector<Sphere>& spheres, const ContactParams& params, double dt);
 
+  /// What spheres and floor did to the momentum of the cloth in the last resolve() [N s].
+  const Vec3d& impulse() const { return impulse_; }
+
 private:
   void resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params, double dt);
 
+  Vec3d impulse_ = Vec3d::Zero();
   std::vector<TriangleId> near_;  ///< scratch: triangles that the sphere may touch in this step
 };
 

@@ -28,6 +28,12 @@ public:
   /// @throws Refusal naming everything wrong with them, twice the same id among it
   void set(const std::vector<Sphere>& spheres, const ContactParams& params, double time_step);
 
+  /// Sends a streamed sphere to `center` [m] in `time` [s], as a set does that comes so long after
+  /// the one before. Its velocity stays, and its sphere_timeout begins anew.
+  /// @throws Refusal if there is no such sphere, or center or time are not usable
+  void moveTo(std::uint64_t id, const Vec3d& center, double time, const ContactParams& params,
+              double time_step);
+
   /// @return the id of the thrown sphere
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
   std::uint64_t throwOne(const ThrowRequest& request);
@@ -38,6 +44,7 @@ public:
   void clear() { spheres_.clear(); }
 
 private:
+  std::vector<Sphere>::const_iterator find(std::uint64_t id) const;
   Sphere streamed(const Sphere& set, const ContactParams& params, double time_step) const;
 
   std::vector<Sphere> spheres_;

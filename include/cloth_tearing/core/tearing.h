@@ -41,6 +41,9 @@ public:
   /// The same, if only `springs`, which carry load, can be over a threshold; the rest is not read.
   double scan(const Cloth& cloth, const std::vector<int>& springs);
 
+  /// Whether scan() found any.
+  bool found() const { return !found_.empty(); }
+
   /// Nothing in this cloth tears at a smaller strain [-].
   double leastThreshold(const Cloth& cloth) const;
 
@@ -56,6 +59,9 @@ public:
 
   /// The reading of the spring that is nearest to tearing; spring none if nothing is stretched.
   TearReading worst(const Cloth& cloth);
+
+  /// The same among `springs`.
+  TearReading worst(const Cloth& cloth, const std::vector<SpringId>& springs);
 
 private:
   /// A weak or one-point end at which a spring may tear, in order of preference.
