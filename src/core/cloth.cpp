@@ -104,6 +104,56 @@ void Cloth::follow(const Edit& edit)
   ++damage.tears;
 }
 
+void Cloth::setMaterial(const Material& other)
+{
+  material = other;
+  rest.weigh(mesh, material.areal_density);
+  std::vector<TriangleId> all(mesh.triangleCount());
+  for (int i = 0; i < mesh.triangleCount(); ++i)
+  {
+    all[i] = { i };
+  }
+  springs.refresh(mesh, rest, material, all);
+  for (int i = 0; i < mesh.springCount(); ++i)
+  {
+    if (damage.at_rest[mesh.spring({ i }).particles[0].index])
+    {
+      springs.bend_shear[i] = SpringLaw{};
+    }
+  }
+  for (int i = 0; i < mesh.particleCount(); ++i)
+  {
+    refreshInverseMass({ i });
+  }
+}
+
+void Cloth::markHem(double width)
+{
+  // A garment folds in space, so distance is measured between particles as the model hangs; a hem
+  // is small beside the folds.
+  std::vector<Vec3d> positions;
+  std::vector<int> pinned;
+  for (int i = 0; i < state.size(); ++i)
+  {
+    positions.push_back(state.position[i].cast<double>());
+    if (attachments[i].kind == Attachment::Kind::PIN)
+    {
+      pinned.push_back(i);
+    }
+  }
+  damage.hem = positionsNear(positions, pinned, width);
+}
+
+void Cloth::takeHem(const Cloth& untorn)
+{
+  std::copy(untorn.damage.hem.begin(), untorn.damage.hem.end(), damage.hem.begin());
+  for (std::size_t i = untorn.damage.hem.size(); i < damage.hem.size(); ++i)
+  {
+    const auto& parents = damage.parents[i];  // which are older
+    damage.hem[i] = damage.hem[parents[0]] && damage.hem[parents[1]];
+  }
+}
+
 void Cloth::attach(ParticleId p, const Attachment& attachment)
 {
   attachments[p.index] = attachment;
@@ -143,9 +193,6 @@ Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const M
   cloth.rest = makeRestShape(cloth.mesh, model.positions, rest_shape, material.areal_density);
   cloth.springs = makeSpringTable(cloth.mesh, cloth.rest, material);
   cloth.damage = undamaged(cloth.mesh);
-  // A garment folds in space, so distance is measured between particles of the model as it hangs;
-  // a hem is small beside the folds.
-  cloth.damage.hem = positionsNear(model.positions, pinned, hem_width);
   cloth.damage.strength = springStrengths(cloth.mesh, model.positions, strength);
   for (double factor : cloth.damage.strength)
   {
@@ -163,6 +210,7 @@ Cloth makeCloth(const ClothModel& model, const std::vector<int>& pinned, const M
   {
     cloth.attach({ p }, { Attachment::Kind::PIN, 0 });
   }
+  cloth.markHem(hem_width);
   return cloth;
 }
 

@@ -218,11 +218,20 @@ void RestShape::follow(const Mesh& mesh, const Edit& edit)
   }
 }
 
+void RestShape::weigh(const Mesh& mesh, double density)
+{
+  areal_density = density;
+  mass.resize(mesh.particleCount());
+  for (int i = 0; i < mesh.particleCount(); ++i)
+  {
+    refreshMass(mesh, *this, ParticleId{ i });
+  }
+}
+
 RestShape makeRestShape(const Mesh& mesh, const std::vector<Vec3d>& positions,
                         RestShapeSource source, double areal_density)
 {
   RestShape rest;
-  rest.areal_density = areal_density;
   rest.length = importedLengths(mesh, positions);
   if (source == RestShapeSource::UV)
   {
@@ -243,11 +252,7 @@ RestShape makeRestShape(const Mesh& mesh, const std::vector<Vec3d>& positions,
   {
     rest.bend_length[i] = flatBendLength(mesh, rest, SpringId{ i });
   }
-  rest.mass.resize(mesh.particleCount());
-  for (int i = 0; i < mesh.particleCount(); ++i)
-  {
-    refreshMass(mesh, rest, ParticleId{ i });
-  }
+  rest.weigh(mesh, areal_density);
   return rest;
 }
 

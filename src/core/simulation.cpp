@@ -21,47 +21,20 @@ constexpr std::uint64_t BOUNDS_INTERVAL = 100;
 /// Ends of pulls that are kept for those who ask later.
 constexpr int ENDED_PULLS = 1000;
 
-/// Solver::stiffnessNumber at which a hanging cloth stretches about twice as far as it should.
-constexpr double SOFT = 4.0;
-
-/// What a step may add to the strain of the hanging cloth, as a fraction of tear_strain. Sheets of
-/// 30 x 30 and 60 x 60 particles hold at 0.7 and tear by their own weight at 0.95.
-constexpr double LARGEST_SAG = 0.5;
-
 /// Springs that begin a step above this part of the least threshold are looked at in its end [-].
 /// One that makes the rest of the way within a step is found in the end of the next.
 constexpr double NEAR = 0.7;
-
-/// How far the cloth reaches: the diagonal of the box around it [m].
-double reachOf(const Cloth& cloth)
-{
-  Vec3 low = Vec3::Constant(std::numeric_limits<Real>::max());
-  Vec3 high = -low;
-  for (const Vec3& x : cloth.state.position)
-  {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return (high - low).cast<double>().norm();
-}
 
 void append(std::vector<std::string>& found, const std::vector<std::string>& more)
 {
   found.insert(found.end(), more.begin(), more.end());
 }
 
-/// How fast air brakes cloth [1/s].
-double airRate(const SimulationParams& params)
-{
-  const Environment& air = params.environment;
-  return air.air_friction + air.wind_drag / params.material.areal_density;
-}
-
 /// Air acts on the speed at the start of a step: braking by more than this speed would turn it
 /// round, and at twice that let it grow without end.
 void checkAir(std::vector<std::string>& found, const SimulationParams& params)
 {
-  const double rate = airRate(params);
+  const double rate = params.airRate();
   const double dt = params.solver.time_step;
   if (params.material.areal_density > 0.0 && rate * dt > 1.0)
   {
@@ -159,54 +132,7 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
   watchSprings();
   stability_ = findStability();
   start_stability_ = stability_;
-  if (stability_.floored > 0)
-  {
-    throw Refusal(
-        "time_step [s] is " + text(params_.solver.time_step) +
-        ", too long for the force springs of " + std::to_string(stability_.floored) +
-        " particles even in max_substeps = " + std::to_string(params_.solver.max_substeps) +
-        " substeps: lower it or the stiffness, or raise areal_density or max_substeps");
-  }
-  refuseTooSoft(params_.tearing);
-}
-
-void Simulation::refuseTooSoft(const TearRules& rules) const
-{
-  // A number of 4 doubles the strain under the cloth's own weight.
-  const double dt = params_.solver.time_step;
-  const double number = solver_->stiffnessNumber(untorn_.state, untorn_.springs, dt);
-  const double weight = params_.material.areal_density * params_.environment.gravity.norm() *
-                        reachOf(untorn_) / params_.material.stiffness;
-  const double sag = weight * number / SOFT;
-  const double limit = LARGEST_SAG * rules.tear_strain;
-  if (rules.enabled && sag > limit)
-  {
-    throw Refusal("time_step [s] is " + text(dt) +
-                  ", too long for so fine a mesh: the cloth would tear by its own weight. The step "
-                  "alone adds a strain of " +
-                  text(sag) + ", must be at most " + text(limit) +
-                  ", half of tear_strain: lower time_step, take a coarser mesh, or switch tearing "
-                  "off");
-  }
-}
-
-std::vector<std::string> Simulation::startNotes() const
-{
-  std::vector<std::string> notes;
-  const double dt = params_.solver.time_step;
-  const double number = solver_->stiffnessNumber(untorn_.state, untorn_.springs, dt);
-  if (number > SOFT)
-  {
-    notes.push_back("the cloth is softer than stiffness says: (1/m_a + 1/m_b) dt^2 k is " +
-                    text(number) + ", should be at most " + text(SOFT) +
-                    "; lower time_step or stiffness, or raise areal_density");
-  }
-  if (start_stability_.substeps > 1)
-  {
-    notes.push_back("the force springs take " + std::to_string(start_stability_.substeps) +
-                    " substeps a step");
-  }
-  return notes;
+  refuseUnfit(params_, untorn_, solver_, start_stability_);
 }
 
 StepReport Simulation::step(StepObserver* observer)
@@ -316,7 +242,7 @@ std::string Simulation::findFault(double max_strain) const
 Stability Simulation::findStability()
 {
   return solver_->checkStability(cloth_.state, cloth_.springs, params_.solver.time_step,
-                                 airRate(params_));
+                                 params_.airRate());
 }
 
 void Simulation::checkStability(std::vector<std::string>& notes)
@@ -433,7 +359,12 @@ void Simulation::publish()
 
 void Simulation::reset()
 {
-  grippers_.releaseAll(cloth_, "the cloth was reset");
+  startOver("the cloth was reset");
+}
+
+void Simulation::startOver(const std::string& why)
+{
+  grippers_.releaseAll(cloth_, why);
   publish();
   cloth_ = untorn_;
   solver_ = SolverHandle(params_.solver);
@@ -560,15 +491,6 @@ void Simulation::moveSphere(std::uint64_t id, const Vec3d& center, double time)
 void Simulation::setSpheres(const std::vector<Sphere>& spheres)
 {
   spheres_.set(spheres, params_.contact, params_.solver.time_step);
-}
-
-void Simulation::setTearRules(const TearRules& rules)
-{
-  refuseIf(problems(rules));
-  refuseTooSoft(rules);
-  params_.tearing = rules;
-  tearing_ = Tearing(rules);
-  watchSprings();
 }
 
 void Simulation::place(const std::vector<Vec3>& positions)

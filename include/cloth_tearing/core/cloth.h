@@ -48,6 +48,15 @@ struct Cloth
   /// position, velocity and (for copies) attachment NONE of their first parent; callers move them.
   void follow(const Edit& edit);
 
+  /// Makes the cloth of another material: springs and masses anew, torn, held and at rest as it is.
+  void setMaterial(const Material& other);
+
+  /// Marks the hem [m] (see TearRules) of cloth that is where and as it was built.
+  void markHem(double width);
+
+  /// Takes over the hem of the cloth that this one was torn from.
+  void takeHem(const Cloth& untorn);
+
   /// Sets who holds a particle, and its inverse mass with it.
   void attach(ParticleId p, const Attachment& attachment);
 

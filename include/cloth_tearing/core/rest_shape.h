@@ -29,6 +29,9 @@ struct RestShape
   /// their triangle; the two halves of a triangle have half its area each; masses and bend-shear
   /// lengths are computed anew around it. Total area and mass stay.
   void follow(const Mesh& mesh, const Edit& edit);
+
+  /// Makes all masses anew, of cloth of `density` [kg/m^2].
+  void weigh(const Mesh& mesh, double density);
 };
 
 /// @param positions of the particles [m]

@@ -45,10 +45,29 @@ struct SimulationParams
   double max_speed = 200.0;          ///< of a particle; beyond is a runaway [m/s], > 0
   double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
   int tear_log_size = 100000;    ///< tears kept for those who ask later, and events of grasps, >= 1
+
+  /// How fast air brakes cloth [1/s].
+  double airRate() const
+  {
+    return environment.air_friction + environment.wind_drag / material.areal_density;
+  }
 };
 
 /// Everything wrong with `params`, one sentence each, naming the field; empty if they can be used.
 std::vector<std::string> problems(const SimulationParams& params);
+
+/// What may change while the cloth lives; the rest of SimulationParams is for its life.
+struct Tuning
+{
+  Material material;
+  Environment environment;
+  TearRules tearing;
+  ContactParams contact;
+  double max_strain = 0.0;  ///< see SolverParams
+  int max_substeps = 0;
+};
+
+Tuning tuningOf(const SimulationParams& params);
 
 struct StepReport
 {
@@ -160,10 +179,18 @@ public:
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
   std::uint64_t throwSphere(const ThrowRequest& request) { return spheres_.throwOne(request); }
 
-  /// Changes the rules from the next step on, to switch tearing on and off or tune it; hem_width
-  /// counts from the next build of the cloth.
-  /// @throws Refusal naming everything wrong with them, or as the constructor if they switch it on
+  /// Changes parameters from the next step on, of the torn cloth and of the one that reset() goes
+  /// back to. Before the first step, it is then as if it had been built with them.
+  /// @return what users should know, as startNotes()
+  /// @throws Refusal as the constructor; nothing has changed then
+  std::vector<std::string> tune(const Tuning& tuning);
+
+  /// Tunes the rules alone, to switch tearing on and off.
   void setTearRules(const TearRules& rules);
+
+  /// Puts the cloth of `other` in place of this one, with its parameters, which have this time_step;
+  /// as reset() otherwise.
+  void takeCloth(Simulation other);
 
   /// Puts every particle where `positions` [m] says, at rest: to show where cloth belongs.
   /// @throws Refusal if there are not as many positions as particles, or one is out of range
@@ -244,7 +271,9 @@ private:
   std::string findFault(double max_strain) const;
   Stability findStability();
   void checkStability(std::vector<std::string>& notes);
-  void refuseTooSoft(const TearRules& rules) const;
+  void startOver(const std::string& why);
+  static void refuseUnfit(const SimulationParams& params, const Cloth& untorn,
+                          const SolverHandle& solver, const Stability& stability);
   void record(StepReport& report);
   TearCause causeOf(const Vec3d& position) const;
   StepForces forces() const;
