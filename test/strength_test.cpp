@@ -594,6 +594,7 @@ TEST(StrengthRun, OfOneFactorEverywhereIsThatOfScaledRules)
     EXPECT_EQ(tears[i].threshold, same[i].threshold);
     EXPECT_EQ(tears[i].position, same[i].position);
   }
+  EXPECT_EQ(by_map.cloth().state.position, by_rules.cloth().state.position);
   for (TearKind kind : { TearKind::BASIC, TearKind::WEAK_POINT, TearKind::ONE_POINT })
   {
     EXPECT_EQ(kinds.count(kind), 1u) << "no tear of kind " << static_cast<int>(kind);
