@@ -15,9 +15,9 @@ namespace cloth
 /// together is multiplied and kept within LEAST_STRENGTH and MOST_STRENGTH. The defaults vary
 /// nothing.
 ///
-/// A factor belongs to its spring and is not averaged as patch strain is: of the springs of a patch,
-/// which read much the same strain, the weakest tears first, and a pinhole smaller than the patch
-/// is felt.
+/// A factor belongs to its spring and is not averaged as patch strain is: of the springs of a
+/// patch, which read much the same strain, the weakest tears first, and a pinhole smaller than the
+/// patch is felt.
 ///
 /// Places are in the model's own coordinates. A spring belongs to a spot or a line that it touches,
 /// so that a spot smaller than the mesh weakens the springs that run through it, and a spring that
