@@ -1092,9 +1092,8 @@ TEST(Grasp, KeepsTheSideThatThePullDoesNotTakeAwayWhereItHoldsNoOtherParticle)
   EXPECT_TRUE(holds(grasps[0], { 0 })) << "with the second fan";
 }
 
-TEST(Grasp, KeepsTheSideWithMoreOfItsParticlesHoweverManyTrianglesTheyHave)
+TEST(Grasp, KeepsBothSidesOfATearThroughItsPatch)
 {
-  // One held particle inside the second fan against two at the ends of the first.
   Cloth cloth = clothOf(bowTie(2, 2));
   std::vector<Grasp> grasps = { graspOf(3, { 0, 1, 3, 5 }, cloth) };
   pullOut(cloth, 2, 1.3);
@@ -1104,9 +1103,12 @@ TEST(Grasp, KeepsTheSideWithMoreOfItsParticlesHoweverManyTrianglesTheyHave)
 
   ASSERT_EQ(pass.tears.size(), 1u);
   const ParticleId copy = pass.tears[0].particles[0].id;
-  ASSERT_TRUE(cloth.mesh.spring(pass.tears[0].spring).joins(copy)) << "the first fan moved";
   EXPECT_TRUE(holds(grasps[0], copy));
-  EXPECT_FALSE(holds(grasps[0], { 0 }));
+  EXPECT_TRUE(holds(grasps[0], { 0 }));
+  EXPECT_EQ(grasps[0].held.size(), 5u);
+  EXPECT_EQ(grasps[0].held.back().offset, grasps[0].held.front().offset);
+  EXPECT_EQ(cloth.attachments[copy.index].grasp, 3u);
+  EXPECT_EQ(cloth.state.inverse_mass[copy.index], Real(0));
 }
 
 TEST(Grasp, OfOneGripperTakesNothingFromAnother)
@@ -1211,8 +1213,8 @@ TEST(Tearing, EndsWhereEveryParticleIsGrasped)
 
   EXPECT_TRUE(isSound(cloth.mesh));
   expectAllFinite(cloth);
-  EXPECT_EQ(grasps[0].held.size(), left.size());
-  EXPECT_EQ(grasps[1].held.size(), right.size());
+  EXPECT_GE(grasps[0].held.size(), left.size());
+  EXPECT_GE(grasps[1].held.size(), right.size());
   for (const Grasp& grasp : grasps)
   {
     for (const Grasp::Held& held : grasp.held)

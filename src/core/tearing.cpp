@@ -34,14 +34,18 @@ Vec2d textureAt(const Mesh& mesh, TriangleId t, ParticleId p)
   return triangle.uv[triangle.cornerOf(p)];
 }
 
-/// How many of the particles that springs join to `p` belong to grasp `grasp`.
-int heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
+/// The particles of grasp `grasp` that springs join to `p`, ascending.
+std::vector<ParticleId> heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
 {
-  int held = 0;
-  const auto count = [&](SpringId s)
+  std::vector<ParticleId> held;
+  const auto add = [&](SpringId s)
   {
-    const Attachment& attachment = cloth.attachments[cloth.mesh.spring(s).other(p).index];
-    held += attachment.kind == Attachment::Kind::GRASP && attachment.grasp == grasp ? 1 : 0;
+    const ParticleId q = cloth.mesh.spring(s).other(p);
+    const Attachment& attachment = cloth.attachments[q.index];
+    if (attachment.kind == Attachment::Kind::GRASP && attachment.grasp == grasp)
+    {
+      held.push_back(q);
+    }
   };
   cloth.mesh.forEachTriangleAt(p,
                                [&](TriangleId t)
@@ -49,21 +53,27 @@ int heldNeighbours(const Cloth& cloth, ParticleId p, std::uint64_t grasp)
                                  const Triangle& triangle = cloth.mesh.triangle(t);
                                  const int k = triangle.cornerOf(p);
                                  const SpringId last = triangle.springs[(k + 2) % 3];
-                                 count(triangle.springs[k]);
+                                 add(triangle.springs[k]);
                                  if (cloth.mesh.spring(last).border())
                                  {
-                                   count(last);  // no other triangle begins with it
+                                   add(last);  // no other triangle begins with it
                                  }
                                });
+  std::sort(held.begin(), held.end());
   return held;
 }
 
-/// The patch that a gripper holds was parted between its jaws: they go on holding both sides.
+/// Whether `some` has one that `others` has not.
+bool hasItsOwn(const std::vector<ParticleId>& some, const std::vector<ParticleId>& others)
+{
+  return !std::includes(others.begin(), others.end(), some.begin(), some.end());
+}
+
+/// The patch of a gripper was parted between its jaws: it goes on holding both sides.
 void holdBoth(Cloth& cloth, std::vector<Grasp>& grasps, ParticleId p, ParticleId copy)
 {
-  const Attachment attachment = cloth.attachments[p.index];
-  const Vec3 velocity = cloth.state.velocity[p.index];
-  cloth.attach(copy, attachment);
+  const Vec3 velocity = cloth.state.velocity[copy.index];
+  cloth.attach(copy, cloth.attachments[p.index]);
   cloth.state.velocity[copy.index] = velocity;
   for (Grasp& grasp : grasps)
   {
@@ -77,8 +87,10 @@ void holdBoth(Cloth& cloth, std::vector<Grasp>& grasps, ParticleId p, ParticleId
   }
 }
 
-/// A held particle that was doubled stays held on the side where the gripper holds neighbours of
-/// it, which may be both; if there are none such, on the side that the pull does not take away.
+/// A held particle that was doubled stays held on the side where the gripper has neighbours of it
+/// that the other side has not: on both, if the tear runs through its patch, on one along the edge,
+/// where the sides have those in common between which it runs. If there are none such, on the side
+/// that the pull does not take away.
 void keepHeld(Cloth& cloth, std::vector<Grasp>& grasps, const Edit& edit, SpringId stretched)
 {
   const ParticleId p = edit.particles.front().parents[0];
@@ -88,15 +100,17 @@ void keepHeld(Cloth& cloth, std::vector<Grasp>& grasps, const Edit& edit, Spring
   {
     return;
   }
-  const int here = heldNeighbours(cloth, p, attachment.grasp);
-  const int there = heldNeighbours(cloth, copy, attachment.grasp);
-  if (here > 0 && there > 0)
+  const std::vector<ParticleId> here = heldNeighbours(cloth, p, attachment.grasp);
+  const std::vector<ParticleId> there = heldNeighbours(cloth, copy, attachment.grasp);
+  const bool here_too = hasItsOwn(here, there);
+  const bool there_too = hasItsOwn(there, here);
+  if (here_too && there_too)
   {
     holdBoth(cloth, grasps, p, copy);
     return;
   }
   const bool pulled_here = cloth.mesh.spring(stretched).joins(p);
-  if (there < here || (there == here && !pulled_here))
+  if (here_too || (!there_too && !pulled_here))
   {
     return;
   }

@@ -51,7 +51,8 @@ public:
   /// it; what touches a particle of an earlier tear waits for the next step.
   ///
   /// Events lack sequence, epoch, step, time and cause, which the caller knows. Grasps follow: a
-  /// held particle that is doubled stays held on the side of the gripper.
+  /// held particle that is doubled stays held on the side of the gripper, on both if the tear runs
+  /// through its patch.
   ///
   /// @param[out] postponed springs that wait
   std::vector<TearEvent> tear(Cloth& cloth, std::vector<Grasp>& grasps, const Blocked& blocked,
