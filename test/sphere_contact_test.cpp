@@ -574,5 +574,68 @@ TEST(ContactParams, AreRefusedByName)
   EXPECT_TRUE(problems(ContactParams()).empty());
 }
 
+// -- spheres that follow a frame -----------------------------------------------------------------
+
+class FollowedSphere : public ::testing::Test
+{
+protected:
+  FollowedSphere()
+  {
+    Sphere sphere;
+    sphere.id = 7;
+    sphere.center = Vec3d(0.0, 0.0, 1.0);
+    sphere.radius = 0.1;
+    simulation.setSpheres({ sphere });
+  }
+  const Sphere& sphere() const { return simulation.spheres().at(0); }
+
+  Simulation simulation{ sheet(1.0, 1.0, 5, 5), {}, vacuum() };
+};
+
+TEST_F(FollowedSphere, GlidesToWhereItIsSentAndStaysThere)
+{
+  for (int i = 1; i <= 5; ++i)
+  {
+    simulation.moveSphere(7, Vec3d(0.01 * i, 0.0, 1.0), 0.02);
+    for (int k = 0; k < 20; ++k)
+    {
+      const double before = sphere().center.x();
+      run(simulation, 1);
+      EXPECT_NEAR(sphere().center.x() - before, 0.0005, 1e-9);
+    }
+  }
+  run(simulation, 1000);  // twice sphere_timeout
+  EXPECT_NEAR(sphere().center.x(), 0.05, 1e-9);
+}
+
+TEST_F(FollowedSphere, IsPlacedAnewWhereNoMotionLeadsThatFast)
+{
+  simulation.moveSphere(7, Vec3d(0.0, 0.0, 11.0), 0.1);  // 100 m/s
+  EXPECT_EQ(sphere().center, Vec3d(0.0, 0.0, 11.0));
+  EXPECT_TRUE(sphere().fresh);
+}
+
+TEST_F(FollowedSphere, IsRefusedUnlessItIsThereAndThePlaceIsOne)
+{
+  const auto refused = [&](std::uint64_t id, const Vec3d& center, double time)
+  {
+    try
+    {
+      simulation.moveSphere(id, center, time);
+    }
+    catch (const Refusal& refusal)
+    {
+      return std::string(refusal.what());
+    }
+    return std::string("granted");
+  };
+  const std::uint64_t hash = simulation.stateHash();
+  EXPECT_EQ(refused(8, Vec3d::Zero(), 0.1), "there is no sphere 8");
+  EXPECT_NE(refused(7, Vec3d(0, 5000, 0), 0.1).find("sphere 7: center [m].y is 5000"),
+            std::string::npos);
+  EXPECT_NE(refused(7, Vec3d::Zero(), -0.1).find("time [s] is -0.1"), std::string::npos);
+  EXPECT_EQ(simulation.stateHash(), hash);
+}
+
 }  // namespace
 }  // namespace cloth
