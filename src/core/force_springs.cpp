@@ -173,6 +173,12 @@ Stability ForceSprings::checkStability(const ParticleState& state, const SpringT
   return stability;
 }
 
+void ForceSprings::recall(const SolverMemory& memory)
+{
+  substeps_ = memory.substeps;
+  inverse_mass_limit_ = memory.inverse_mass_limit;
+}
+
 void ForceSprings::sumStiffness(const ParticleState& state, const SpringTable& springs)
 {
   stiffness_sum_.assign(state.size(), 0.0);

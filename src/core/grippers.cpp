@@ -444,6 +444,19 @@ void Grippers::findLoosePieces(const Cloth& cloth, const std::string& reason)
   }
 }
 
+void Grippers::resume(std::uint64_t next_tear)
+{
+  for (Grasp& grasp : grasps_)
+  {
+    if (grasp.pull)
+    {
+      grasp.pull->id = next_pull_++;
+      grasp.pull->first_tear = next_tear;
+    }
+    tell(grasp, GraspEventKind::TAKEN, "held in the state that was restored");
+  }
+}
+
 Grippers::News Grippers::takeNews()
 {
   News news;

@@ -7,6 +7,27 @@ namespace cloth
 namespace
 {
 
+bool within(int index, int low, int count)
+{
+  return index >= low && index < count;
+}
+
+/// Whatever the mesh is, what follows may then look up what its springs name.
+void checkSpringReferences(const Mesh& mesh, std::vector<std::string>& found)
+{
+  for (int i = 0; i < mesh.springCount() && found.empty(); ++i)
+  {
+    const Spring& spring = mesh.spring({ i });
+    if (!within(spring.particles[0].index, 0, mesh.particleCount()) ||
+        !within(spring.particles[1].index, 0, mesh.particleCount()) ||
+        !within(spring.triangles[0].index, 0, mesh.triangleCount()) ||
+        !within(spring.triangles[1].index, -1, mesh.triangleCount()))
+    {
+      found.push_back(name(SpringId{ i }) + " names an element that does not exist");
+    }
+  }
+}
+
 void checkCorners(const Mesh& mesh, std::vector<std::string>& found)
 {
   for (int i = 0; i < mesh.triangleCount(); ++i)
@@ -83,7 +104,19 @@ void checkSprings(const Mesh& mesh, const std::vector<Triangle>& triangles,
 std::vector<std::string> defects(const Mesh& mesh)
 {
   std::vector<std::string> found;
-  checkCorners(mesh, found);
+  const int corner_count = 3 * mesh.triangleCount();
+  const auto beyond = [corner_count](int corner) { return !within(corner, -1, corner_count); };
+  if (static_cast<int>(mesh.next_corner_.size()) != corner_count ||
+      std::any_of(mesh.first_corner_.begin(), mesh.first_corner_.end(), beyond) ||
+      std::any_of(mesh.next_corner_.begin(), mesh.next_corner_.end(), beyond))
+  {
+    found.push_back("the lists of corners name corners that do not exist");
+  }
+  checkSpringReferences(mesh, found);
+  if (found.empty())
+  {
+    checkCorners(mesh, found);
+  }
   if (!found.empty())
   {
     return found;  // what follows relies on sound references

@@ -271,6 +271,7 @@ void Simulation::record(StepReport& report)
     event.cause = causeOf(event.position);
     ++tears_[static_cast<int>(event.kind)];
     log_.add(event);
+    history_.add(event.sequence);
   }
 }
 
@@ -373,7 +374,9 @@ void Simulation::startOver(const std::string& why)
   spheres_.clear();
   balance_ = ForceBalance();
   tears_ = {};
+  history_ = {};
   start_time_ = time();
+  start_step_ = 0;
   step_ = 0;
   ++epoch_;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "cloth_tearing/core/word_hash.h"
+
 namespace cloth
 {
 namespace
@@ -12,11 +14,7 @@ namespace
 class Hash
 {
 public:
-  void add(std::uint64_t word)
-  {
-    value_ = (value_ ^ word) * 0x100000001b3ull;  // FNV-1a over words, with the high half folded in
-    value_ ^= value_ >> 32;
-  }
+  void add(std::uint64_t word) { words_.add(word); }
   void add(int word) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(word))); }
   void add(double word)
   {
@@ -44,10 +42,10 @@ public:
       add(q.coeffs()[i]);
     }
   }
-  std::uint64_t value() const { return value_; }
+  std::uint64_t value() const { return words_.value(); }
 
 private:
-  std::uint64_t value_ = 0xcbf29ce484222325ull;
+  WordHash words_;
 };
 
 /// The place of a grasp in the list, from 1; 0 for none. Ids are numbers of a life, not of a state.

@@ -24,6 +24,8 @@ public:
   int limited() const override { return limited_; }
   Stability checkStability(const ParticleState& state, const SpringTable& springs, double dt,
                            double air_rate) override;
+  SolverMemory memory() const override { return { substeps_, inverse_mass_limit_ }; }
+  void recall(const SolverMemory& memory) override;
 
 private:
   template <class See>

@@ -115,6 +115,11 @@ public:
   /// Looks again at what hangs on one grasp alone: to be asked when pins have come or gone.
   void findLoosePieces(const Cloth& cloth, const std::string& reason);
 
+  /// Tells that all grasps, which came with a state, are there. Pulls go on under new numbers, since
+  /// nobody waits for them.
+  /// @param next_tear number of the first tear that would count
+  void resume(std::uint64_t next_tear);
+
   /// What has happened since it was last asked.
   News takeNews();
 
@@ -126,6 +131,9 @@ public:
   const Grasp& find(std::uint64_t id) const;
 
 private:
+  template <class Archive>
+  friend void transfer(Archive& archive, Grippers& grippers);
+
   Grasp& find(std::uint64_t id);
   Grasp& free(std::uint64_t id);
   Grasp& following(std::uint64_t id);

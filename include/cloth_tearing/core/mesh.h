@@ -176,6 +176,8 @@ public:
 
 private:
   friend std::vector<std::string> defects(const Mesh& mesh);
+  template <class Archive>
+  friend void transfer(Archive& archive, Mesh& mesh);
 
   ParticleId addParticle();
   SpringId addSpring(ParticleId a, ParticleId b);

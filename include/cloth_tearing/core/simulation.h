@@ -9,6 +9,7 @@
 
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/cloth_model.h"
+#include "cloth_tearing/core/event_history.h"
 #include "cloth_tearing/core/event_log.h"
 #include "cloth_tearing/core/force_balance.h"
 #include "cloth_tearing/core/grippers.h"
@@ -45,6 +46,7 @@ struct SimulationParams
   double max_speed = 200.0;          ///< of a particle; beyond is a runaway [m/s], > 0
   double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
   int tear_log_size = 100000;    ///< tears kept for those who ask later, and events of grasps, >= 1
+  std::uint64_t life = 0;  ///< names the simulation and its copies among all others: see restored()
 
   /// How fast air brakes cloth [1/s].
   double airRate() const
@@ -120,6 +122,19 @@ public:
   /// time, tear numbers and the log go on.
   void reset();
 
+  /// Everything that decides what comes next, as bytes: cloth, untorn cloth, motion, damage,
+  /// grasps, spheres, and the parameters that a step reads. With the tears that made the cloth what
+  /// it is.
+  std::string save() const;
+
+  /// This simulation in the state that `bytes` hold: it goes on, bit for bit, as the one that was
+  /// saved would have gone on. The epoch is one higher than here; time, all logs and their numbers,
+  /// and the numbers of grasps, pulls and thrown spheres go on from here. Tears of another life are
+  /// added to the log, each once, under new numbers, with this time and epoch. Present grasps end,
+  /// and those of the state are taken; their pulls go on under new numbers.
+  /// @throws Refusal saying why `bytes` are no such state
+  Simulation restored(const std::string& bytes) const;
+
   /// Takes hold of the cloth. Pinned particles are passed over.
   /// @throws Refusal if nothing is within reach, or a particle is held by another grasp
   GraspTaken grasp(const GraspRequest& request);
@@ -188,8 +203,8 @@ public:
   /// Tunes the rules alone, to switch tearing on and off.
   void setTearRules(const TearRules& rules);
 
-  /// Puts the cloth of `other` in place of this one, with its parameters, which have this time_step;
-  /// as reset() otherwise.
+  /// Puts the cloth of `other` in place of this one, with its parameters, which have this
+  /// time_step; as reset() otherwise.
   void takeCloth(Simulation other);
 
   /// Puts every particle where `positions` [m] says, at rest: to show where cloth belongs.
@@ -200,7 +215,10 @@ public:
   const Cloth& cloth() const { return cloth_; }
   const std::vector<Grasp>& grasps() const { return grippers_.all(); }
   const std::vector<Sphere>& spheres() const { return spheres_.all(); }
-  double time() const { return start_time_ + step_ * params_.solver.time_step; }
+  double time() const
+  {
+    return start_time_ + static_cast<double>(step_ - start_step_) * params_.solver.time_step;
+  }
   std::uint64_t stepCount() const { return step_; }
   std::uint32_t epoch() const { return epoch_; }
   std::uint64_t revision() const { return cloth_.damage.tears; }
@@ -256,12 +274,23 @@ public:
   std::uint64_t stateHash() const;
 
 private:
+  template <class Archive>
+  friend void transfer(Archive& archive, Simulation& simulation);
+
   /// What a step may change before it tears, to go back to if the step goes wrong.
   struct Undo
   {
     std::vector<Vec3> velocity;
     std::vector<Grasp> grasps;
     std::vector<Sphere> spheres;
+  };
+
+  /// Tears of another life that have come into the log.
+  struct Adopted
+  {
+    std::uint64_t life = 0;
+    EventHistory theirs;
+    EventHistory ours;
   };
 
   void watchSprings();
@@ -280,6 +309,7 @@ private:
   void keepBalance();
   void concludeGrasps(const std::vector<TearEvent>& tears);
   void publish();
+  void adopt(std::uint64_t life, std::vector<TearEvent>& tears);
 
   SimulationParams params_;
   Cloth untorn_;  ///< as built, for reset()
@@ -297,9 +327,12 @@ private:
   EventLog<GraspEvent> grasp_log_;
   EventLog<PullEnd> pull_log_;
   std::optional<ForceBalance> balance_ = ForceBalance();  ///< of the last step, once summed up
-  std::array<std::uint64_t, TEAR_KINDS> tears_{};         ///< by kind, since the last reset
-  Stability start_stability_;                             ///< of the cloth as built
-  double start_time_ = 0.0;                               ///< of the epoch [s]
+  EventHistory history_;                                  ///< tears of the present cloth
+  std::vector<Adopted> adopted_;  ///< one for each history that came with a restored state
+  std::array<std::uint64_t, TEAR_KINDS> tears_{};  ///< by kind, since the last reset
+  Stability start_stability_;                      ///< of the cloth as built
+  double start_time_ = 0.0;                        ///< of the epoch [s]
+  std::uint64_t start_step_ = 0;                   ///< with which the epoch began
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
 };

@@ -35,6 +35,13 @@ struct Stability
   int floored = 0;  ///< particles that it treats as heavier than they are, since substeps ran out
 };
 
+/// What a solver carries from step to step.
+struct SolverMemory
+{
+  int substeps = 1;
+  std::vector<Real> inverse_mass_limit;  ///< by particle [1/kg], > 0; empty where it has none
+};
+
 /// Moves particles under springs and outer accelerations. Knows nothing of tearing: it is given
 /// the springs anew each step.
 class Solver
@@ -79,6 +86,10 @@ public:
   {
     return {};
   }
+
+  /// What it carries from step to step, and the same back. By default nothing.
+  virtual SolverMemory memory() const { return {}; }
+  virtual void recall(const SolverMemory& /*memory*/) {}
 
   /// How much of the springs' stiffness a step of `dt` [s] cannot carry: (1/m_a + 1/m_b) k dt^2,
   /// which nine of ten structural springs do not exceed, so that a few slivers do not count. Well

@@ -44,6 +44,9 @@ public:
   void clear() { spheres_.clear(); }
 
 private:
+  template <class Archive>
+  friend void transfer(Archive& archive, SphereSet& set);
+
   std::vector<Sphere>::const_iterator find(std::uint64_t id) const;
   Sphere streamed(const Sphere& set, const ContactParams& params, double time_step) const;
 
