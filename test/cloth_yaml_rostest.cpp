@@ -74,6 +74,9 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_EQ(shipped.clock_rate, compiled.clock_rate);
   EXPECT_EQ(shipped.tf_patience, compiled.tf_patience);
   EXPECT_EQ(shipped.command_patience, compiled.command_patience);
+  EXPECT_EQ(shipped.frame_timeout, compiled.frame_timeout);
+  EXPECT_EQ(shipped.lost_frame, compiled.lost_frame);
+  EXPECT_EQ(shipped.grasp_state_rate, compiled.grasp_state_rate);
   EXPECT_EQ(shipped.marker_rate, compiled.marker_rate);
   EXPECT_EQ(shipped.surface_rate, compiled.surface_rate);
   EXPECT_EQ(shipped.status_rate, compiled.status_rate);

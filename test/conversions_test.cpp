@@ -230,13 +230,12 @@ TEST(Requests, ArriveInTheClothFrame)
   EXPECT_TRUE(toCore(ball, quarterTurn()).velocity.isApprox(cloth::Vec3d(0.0, 3.0, 0.0)));
   EXPECT_EQ(toCore(ball, quarterTurn()).lifetime, 10.0) << "0 = 10 s";
 
-  CollisionSpheres spheres = oneSphere();
-  spheres.spheres[0].center.x = 2.0;
-  const std::vector<cloth::Sphere> converted = toCore(spheres, quarterTurn());
-  ASSERT_EQ(converted.size(), 1u);
-  EXPECT_EQ(converted[0].id, 5u);
-  EXPECT_TRUE(converted[0].center.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
-  EXPECT_EQ(converted[0].source, cloth::SphereSource::STREAMED);
+  CollisionSphere sphere = oneSphere().spheres[0];
+  sphere.center.x = 2.0;
+  const cloth::Sphere converted = toCore(sphere, quarterTurn());
+  EXPECT_EQ(converted.id, 5u);
+  EXPECT_TRUE(converted.center.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
+  EXPECT_EQ(converted.source, cloth::SphereSource::STREAMED);
 }
 
 TEST(ClothFrame, LiesAtItsOriginWithTheAxesOfFrameId)

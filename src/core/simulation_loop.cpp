@@ -65,6 +65,10 @@ void SimulationLoop::run()
   while (!ending_)
   {
     queue_.runAll(*simulation_);
+    if (options_.after_commands)
+    {
+      options_.after_commands(*simulation_);
+    }
     if (!requests_.empty())
     {
       oneStep();

@@ -33,13 +33,21 @@ cloth::ClockFollower::Reading rosTime()
   return std::chrono::nanoseconds(now.toNSec());
 }
 
-cloth::SimulationLoop::Options loopOptions(const NodeParams& params)
+cloth::SimulationLoop::Options loopOptions(const NodeParams& params, FrameFollower& follower,
+                                           ClothPublisher& publisher, NewestNumber& pull_ends)
 {
   cloth::SimulationLoop::Options options;
   options.pace = params.pace;
   options.paused = params.paused;
   options.patience = std::chrono::milliseconds(static_cast<int>(1000.0 * params.command_patience));
   options.clock = rosTime;
+  options.before_step = [&follower](cloth::Simulation& simulation)
+  { follower.beforeStep(simulation); };
+  options.after_commands = [&publisher, &pull_ends](const cloth::Simulation& simulation)
+  {
+    publisher.onCommands(simulation);
+    pull_ends.raise(simulation.loggedPullEnds()[1]);
+  };
   options.on_clock_jump = [](const std::string& jump) { ROS_WARN_STREAM(jump); };
   return options;
 }
@@ -67,17 +75,21 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , node_(servedBy(node, queue_))
     , step_node_(servedBy(node, step_queue_))
     , frames_(placement_, std::chrono::duration<double>(params.tf_patience))
+    , follower_(frames_, params)
     , publisher_(node_, params, placement_)
     , clock_(node_, params)
     , requests_(publisher_)
-    , loop_(makeSimulation(params), loopOptions(params),
+    , loop_(makeSimulation(params), loopOptions(params, follower_, publisher_, pull_ends_),
             [this](const cloth::Simulation& simulation, const cloth::StepReport& report)
             {
               clock_.onStep(simulation.time());
-              publisher_.onStep(report);
+              publisher_.onStep(simulation, report);
+              pull_ends_.raise(simulation.loggedPullEnds()[1]);
             })
     , grasps_(context())
     , spheres_(context())
+    , pulls_(context(), pull_ends_)
+    , predictions_(context())
     , spinner_(REQUEST_THREADS, &queue_)
     , step_spinner_(STEP_THREADS, &step_queue_)
 {
@@ -91,6 +103,8 @@ ClothNode::~ClothNode()
 {
   frames_.stopWaiting();
   loop_.stop();  // whoever waits for it is answered
+  pulls_.stop();
+  predictions_.stop();
   spinner_.stop();
   step_spinner_.stop();
   publisher_.stop();
@@ -98,7 +112,7 @@ ClothNode::~ClothNode()
 
 NodeContext ClothNode::context()
 {
-  return { node_, placement_, frames_, publisher_, requests_, loop_ };
+  return { node_, placement_, frames_, publisher_, requests_, loop_, follower_ };
 }
 
 void ClothNode::openRequests()

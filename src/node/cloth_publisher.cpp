@@ -1,4 +1,4 @@
-// Publishes what the simulation does: markers, surface, status and tears.
+// Publishes what the simulation does: markers, surface, status, grasps and tears.
 #include "cloth_tearing/node/cloth_publisher.h"
 
 #include <ros/console.h>
@@ -27,10 +27,12 @@ ClothPublisher::ClothPublisher(ros::NodeHandle node, const NodeParams& params,
     : placement_(placement)
     , time_step_(params.simulation.solver.time_step)
     , painter_(params.markers, placement)
+    , grasps_(node, placement)
 {
   open<visualization_msgs::MarkerArray>(node, "markers", params.marker_rate, markers_);
   open<ClothSurface>(node, "surface", params.surface_rate, surface_);
   open<SimulationStatus>(node, "status", params.status_rate, status_);
+  open<GraspStates>(node, "grasp_states", params.grasp_state_rate, grasp_states_);
   tear_events_ = node.advertise<TearEvents>("tear_events", TEAR_QUEUE);
 }
 
@@ -76,7 +78,7 @@ void ClothPublisher::stop()
 
 // -- from the simulation's thread and from callbacks ----------------------------------------------
 
-void ClothPublisher::onStep(const cloth::StepReport& report)
+void ClothPublisher::onStep(const cloth::Simulation& simulation, const cloth::StepReport& report)
 {
   ++version_;
   postponed_ = report.postponed;
@@ -96,7 +98,16 @@ void ClothPublisher::onStep(const cloth::StepReport& report)
   {
     publishTears(report.tears);
   }
-  if (!report.tears.empty() || !report.fault.empty())
+  const bool grasps_changed = grasps_.publishEvents(simulation);
+  if (!report.tears.empty() || !report.fault.empty() || grasps_changed)
+  {
+    touch();
+  }
+}
+
+void ClothPublisher::onCommands(const cloth::Simulation& simulation)
+{
+  if (grasps_.publishEvents(simulation))
   {
     touch();
   }
@@ -120,6 +131,7 @@ void ClothPublisher::touch()
   ++version_;
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.wanted = true;
+  grasp_states_.wanted = true;
   urgent_ = true;
   wake_.notify_all();
 }
@@ -159,10 +171,12 @@ void ClothPublisher::run()
     const bool markers_wanted = std::exchange(markers_.wanted, false);
     const bool surface_wanted = std::exchange(surface_.wanted, false);
     const bool status_wanted = std::exchange(status_.wanted, false);
+    const bool grasps_wanted = std::exchange(grasp_states_.wanted, false);
     lock.unlock();
     bool missed = false;
     try
     {
+      grasps_.openWrenches();
       const Clock::time_point now = Clock::now();
       const bool markers = takeTurn(markers_, markers_wanted, false, now);
       const bool surface = takeTurn(surface_, surface_wanted, false, now);
@@ -174,6 +188,10 @@ void ClothPublisher::run()
       {
         publishStatus();
       }
+      if (takeTurn(grasp_states_, grasps_wanted, false, now))
+      {
+        publishGrasps();
+      }
     }
     catch (const cloth::Busy&)  // a step takes longer than the patience: another turn comes
     {
@@ -183,15 +201,16 @@ void ClothPublisher::run()
     markers_.wanted |= missed && markers_wanted;
     surface_.wanted |= missed && surface_wanted;
     status_.wanted |= missed && status_wanted;
+    grasp_states_.wanted |= missed && grasps_wanted;
   }
 }
 
 ClothPublisher::Clock::time_point ClothPublisher::nextTurn() const
 {
   Clock::time_point next = Clock::now() + IDLE;
-  for (const Channel* channel : { &markers_, &surface_, &status_ })
+  for (const Channel* channel : { &markers_, &surface_, &status_, &grasp_states_ })
   {
-    if (channel->topic.heard())
+    if (heard(*channel))
     {
       next = std::min(next, channel->due);
     }
@@ -199,11 +218,16 @@ ClothPublisher::Clock::time_point ClothPublisher::nextTurn() const
   return next;
 }
 
+bool ClothPublisher::heard(const Channel& channel) const
+{
+  return channel.topic.heard() || (&channel == &grasp_states_ && grasps_.heard());
+}
+
 /// Whether to publish now; sets when to look again.
 bool ClothPublisher::takeTurn(Channel& channel, bool wanted, bool unchanged_too,
                               Clock::time_point now) const
 {
-  if (!channel.topic.heard())
+  if (!heard(channel))
   {
     return false;
   }
@@ -267,6 +291,18 @@ void ClothPublisher::publishStatus()
   const auto message = boost::make_shared<SimulationStatus>(toMessage(source, placement_));
   message->header.stamp = ros::Time::now();
   status_.topic.publish(message);
+}
+
+void ClothPublisher::publishGrasps()
+{
+  const std::uint64_t version = version_;
+  const auto states = boost::make_shared<GraspStates>();
+  *states = loop_->call([this](cloth::Simulation& simulation)
+                        { return graspStates(simulation, placement_); });
+  states->header.stamp = ros::Time::now();
+  grasps_.publishWrenches(*states);
+  grasp_states_.topic.publish(states);
+  grasp_states_.seen = version;
 }
 
 }  // namespace cloth_tearing

@@ -21,23 +21,9 @@ constexpr std::size_t MOST_SPHERES = 1000;  // at once
 
 constexpr double UNIT_TOLERANCE = 1e-3;  // what a quaternion's length may be off
 
-cloth::Vec3d toVector(const geometry_msgs::Point& p)
-{
-  return { p.x, p.y, p.z };
-}
-cloth::Vec3d toVector(const geometry_msgs::Vector3& v)
-{
-  return { v.x, v.y, v.z };
-}
-
 cloth::Quatd toQuaternion(const geometry_msgs::Quaternion& q)
 {
   return { q.w, q.x, q.y, q.z };
-}
-
-bool isZero(const geometry_msgs::Quaternion& q)
-{
-  return q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
 }
 
 std::uint32_t toId(cloth::ParticleId p)
@@ -123,17 +109,6 @@ void fillMarks(ClothSurface& message, const cloth::Surface& surface)
   }
 }
 
-void checkOrientation(std::vector<std::string>& found, const std::string& field,
-                      const geometry_msgs::Quaternion& q)
-{
-  const double length = toQuaternion(q).norm();
-  if (!isZero(q) && !(std::abs(length - 1.0) <= UNIT_TOLERANCE))
-  {
-    found.push_back(field + " has length " + cloth::text(length) +
-                    ", must be a unit quaternion, or all zero to stay as it is");
-  }
-}
-
 }  // namespace
 
 // -- out -----------------------------------------------------------------------------------------
@@ -145,6 +120,26 @@ geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement)
   p.y = x.y() + placement.origin.y();
   p.z = x.z() + placement.origin.z();
   return p;
+}
+
+geometry_msgs::Vector3 toVector3(const cloth::Vec3d& v)
+{
+  geometry_msgs::Vector3 vector;
+  vector.x = v.x();
+  vector.y = v.y();
+  vector.z = v.z();
+  return vector;
+}
+
+geometry_msgs::Pose toPose(const cloth::Pose& pose, const Placement& placement)
+{
+  geometry_msgs::Pose message;
+  message.position = toPoint(pose.position, placement);
+  message.orientation.x = pose.rotation.x();
+  message.orientation.y = pose.rotation.y();
+  message.orientation.z = pose.rotation.z();
+  message.orientation.w = pose.rotation.w();
+  return message;
 }
 
 ClothSurface toMessage(const cloth::Surface& surface, const Placement& placement)
@@ -280,18 +275,53 @@ const char* name(cloth::Pace pace)
 
 // -- in ------------------------------------------------------------------------------------------
 
+cloth::Vec3d toVector(const geometry_msgs::Point& p)
+{
+  return { p.x, p.y, p.z };
+}
+
+cloth::Vec3d toVector(const geometry_msgs::Vector3& v)
+{
+  return { v.x, v.y, v.z };
+}
+
+bool isZero(const geometry_msgs::Quaternion& q)
+{
+  return q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
+}
+
+void checkOrientation(std::vector<std::string>& found, const std::string& field,
+                      const geometry_msgs::Quaternion& q)
+{
+  const double length = toQuaternion(q).norm();
+  if (!isZero(q) && !(std::abs(length - 1.0) <= UNIT_TOLERANCE))
+  {
+    found.push_back(field + " has length " + cloth::text(length) +
+                    ", must be a unit quaternion, or all zero to stay as it is");
+  }
+}
+
+cloth::Pose toClothFrame(const geometry_msgs::Pose& pose, const cloth::Pose& to_cloth)
+{
+  cloth::Pose placed;
+  placed.position = to_cloth.apply(toVector(pose.position));
+  if (!isZero(pose.orientation))
+  {
+    placed.rotation = (to_cloth.rotation * toQuaternion(pose.orientation)).normalized();
+  }
+  return placed;
+}
+
 std::vector<std::string> problems(const Grasp::Request& request)
 {
   std::vector<std::string> found;
   check(found, "point", toVector(request.point), FINITE.high);
   check(found, "radius [m]", request.radius, FINITE);
-  if (!request.gripper_frame.empty())
+  check(found, "force_limit [N]", request.force_limit, FINITE);
+  if (!request.gripper_frame.empty() && request.gripper_frame.front() == '/')
   {
-    found.push_back("gripper_frame is not served yet: leave it empty");
-  }
-  if (request.force_limit != 0.0)
-  {
-    found.push_back("force_limit is not served yet: leave it 0");
+    found.push_back("gripper_frame is \"" + request.gripper_frame +
+                    "\", must not begin with a slash");
   }
   return found;
 }
@@ -333,9 +363,14 @@ std::vector<std::string> problems(const CollisionSpheres& message)
     check(found, field + "velocity", toVector(sphere.velocity), FINITE.high);
     check(found, field + "radius [m]", sphere.radius, FINITE);
     check(found, field + "mass [kg]", sphere.mass, FINITE);
-    if (!sphere.frame.empty())
+    if (!sphere.frame.empty() && !toVector(sphere.velocity).isZero(0.0))
     {
-      found.push_back(field + "frame is not served yet: leave it empty");
+      found.push_back(field + "velocity must be 0: the sphere moves as its frame " + sphere.frame +
+                      " does");
+    }
+    if (!sphere.frame.empty() && sphere.frame.front() == '/')
+    {
+      found.push_back(field + "frame is \"" + sphere.frame + "\", must not begin with a slash");
     }
   }
   return found;
@@ -355,6 +390,8 @@ cloth::GraspRequest toCore(const Grasp::Request& request, const cloth::Pose& to_
   grasp.point = to_cloth.apply(toVector(request.point));
   grasp.radius = request.radius;
   grasp.frame.position = grasp.point;
+  grasp.force_limit = request.force_limit;
+  grasp.followed = request.gripper_frame;
   return grasp;
 }
 
@@ -363,16 +400,11 @@ Destination toCore(const Drag::Request& request, const cloth::Pose& to_cloth)
   Destination destination;
   destination.keeps_rotation = isZero(request.target.orientation);
   cloth::DragTarget& target = destination.target;
-  target.pose.position = to_cloth.apply(toVector(request.target.position));
+  target.pose = toClothFrame(request.target, to_cloth);
   target.linear_speed = request.linear_speed;
   if (!destination.keeps_rotation || request.angular_speed != 0.0)
   {
     target.angular_speed = request.angular_speed;
-  }
-  if (!destination.keeps_rotation)
-  {
-    target.pose.rotation =
-        (to_cloth.rotation * toQuaternion(request.target.orientation)).normalized();
   }
   return destination;
 }
@@ -391,22 +423,17 @@ cloth::ThrowRequest toCore(const ThrowSphere::Request& request, const cloth::Pos
   return sphere;
 }
 
-std::vector<cloth::Sphere> toCore(const CollisionSpheres& message, const cloth::Pose& to_cloth)
+cloth::Sphere toCore(const CollisionSphere& sphere, const cloth::Pose& to_cloth)
 {
-  std::vector<cloth::Sphere> spheres;
-  for (const CollisionSphere& sphere : message.spheres)
-  {
-    cloth::Sphere converted;
-    converted.source = cloth::SphereSource::STREAMED;
-    converted.id = sphere.id;
-    converted.center = to_cloth.apply(toVector(sphere.center));
-    converted.previous = converted.center;
-    converted.velocity = to_cloth.rotation * toVector(sphere.velocity);
-    converted.radius = sphere.radius;
-    converted.mass = sphere.mass;
-    spheres.push_back(converted);
-  }
-  return spheres;
+  cloth::Sphere converted;
+  converted.source = cloth::SphereSource::STREAMED;
+  converted.id = sphere.id;
+  converted.center = to_cloth.apply(toVector(sphere.center));
+  converted.previous = converted.center;
+  converted.velocity = to_cloth.rotation * toVector(sphere.velocity);
+  converted.radius = sphere.radius;
+  converted.mass = sphere.mass;
+  return converted;
 }
 
 }  // namespace cloth_tearing

@@ -22,42 +22,45 @@ Frames::Frames(const Placement& placement, std::chrono::duration<double> patienc
 
 cloth::Pose Frames::toCloth(const std_msgs::Header& header) const
 {
-  if (header.frame_id.empty())
+  return toCloth(header.frame_id, header.stamp, "header.frame_id");
+}
+
+cloth::Pose Frames::toCloth(const std::string& frame, const ros::Time& stamp,
+                            const std::string& field) const
+{
+  if (frame.empty())
   {
-    throw cloth::Refusal(
-        "header.frame_id is empty, must name the frame of the values (the cloth's is " +
-        placement_.frame_id + ")");
+    throw cloth::Refusal(field + " is empty, must name the frame of the values (the cloth's is " +
+                         placement_.frame_id + ")");
   }
-  if (header.frame_id.front() == '/')  // tf would look for it in vain until patience ends
+  if (frame.front() == '/')  // tf would look for it in vain until patience ends
   {
-    throw cloth::Refusal("header.frame_id is \"" + header.frame_id +
-                         "\", must not begin with a slash");
+    throw cloth::Refusal(field + " is \"" + frame + "\", must not begin with a slash");
   }
-  if (header.frame_id == placement_.frame_id)
+  if (frame == placement_.frame_id)
   {
     return { -placement_.origin, cloth::Quatd::Identity() };
   }
   // tf2 itself is never asked to wait: it would on ROS time, which may stand still.
   const auto deadline = std::chrono::steady_clock::now() + patience_;
   std::string why;
-  while (!buffer_.canTransform(placement_.frame_id, header.frame_id, header.stamp, &why))
+  while (!buffer_.canTransform(placement_.frame_id, frame, stamp, &why))
   {
     if (!waiting_ || std::chrono::steady_clock::now() > deadline)
     {
-      throw cloth::Refusal("header.frame_id: no transform from " + header.frame_id + " to " +
-                           placement_.frame_id + ": " + why);
+      throw cloth::Refusal(field + ": no transform from " + frame + " to " + placement_.frame_id +
+                           ": " + why);
     }
     std::this_thread::sleep_for(LOOK_AGAIN);
   }
   try
   {
-    return toClothFrame(
-        buffer_.lookupTransform(placement_.frame_id, header.frame_id, header.stamp).transform,
-        placement_);
+    return toClothFrame(buffer_.lookupTransform(placement_.frame_id, frame, stamp).transform,
+                        placement_);
   }
   catch (const tf2::TransformException& error)  // it went out of the buffer just now
   {
-    throw cloth::Refusal("header.frame_id: " + std::string(error.what()));
+    throw cloth::Refusal(field + ": " + std::string(error.what()));
   }
 }
 

@@ -1,10 +1,22 @@
 // Takes hold of the cloth, drags it and lets go, as requested.
 #include "cloth_tearing/node/grasp_services.h"
 
+#include <algorithm>
+
+#include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/node/grasp_conversions.h"
 
 namespace cloth_tearing
 {
+
+namespace
+{
+
+/// However rare the targets, a grasp is no longer under way to one [s].
+constexpr double LONGEST_GLIDE = 0.1;
+
+}  // namespace
 
 GraspServices::GraspServices(const NodeContext& context) : context_(context)
 {
@@ -13,12 +25,34 @@ GraspServices::GraspServices(const NodeContext& context) : context_(context)
   requests.serve<Grasp>(node, "grasp", [this](auto& q, auto& a) { onGrasp(q, a); });
   requests.serve<Drag>(node, "drag", [this](auto& q, auto&) { onDrag(q); });
   requests.serve<Release>(node, "release", [this](auto& q, auto& a) { onRelease(q, a); });
+  requests.serve<Pin>(node, "pin",
+                      [this](auto& q, auto& a)
+                      {
+                        onPins(q, a,
+                               [](auto& simulation, const cloth::PinRequest& pins)
+                               { return simulation.pin(pins); });
+                      });
+  requests.serve<Pin>(node, "unpin",
+                      [this](auto& q, auto& a)
+                      {
+                        onPins(q, a,
+                               [](auto& simulation, const cloth::PinRequest& pins)
+                               { return simulation.unpin(pins); });
+                      });
+  requests.serve<GetGraspEvents>(
+      node, "get_grasp_events", [this](auto& q, auto& a) { onGetGraspEvents(q, a); },
+      Effect::LOOKS);
+  targets_ = node.subscribe("grasp_targets", 10, &GraspServices::onTargets, this);
 }
 
 void GraspServices::onGrasp(const Grasp::Request& request, Grasp::Response& response)
 {
   cloth::refuseIf(problems(request));
-  const cloth::GraspRequest wish = toCore(request, context_.frames.toCloth(request.header));
+  cloth::GraspRequest wish = toCore(request, context_.frames.toCloth(request.header));
+  if (!wish.followed.empty())
+  {
+    wish.frame = context_.frames.toCloth(wish.followed, ros::Time(0), "gripper_frame");
+  }
   const cloth::GraspTaken taken =
       context_.loop.call([&wish](cloth::Simulation& simulation) { return simulation.grasp(wish); });
   response.grasp_id = taken.id;
@@ -34,12 +68,9 @@ void GraspServices::onDrag(const Drag::Request& request)
   context_.loop.call(
       [&destination, id](cloth::Simulation& simulation)
       {
-        for (const cloth::Grasp& grasp : simulation.grasps())
+        if (destination.keeps_rotation)
         {
-          if (grasp.id == id && destination.keeps_rotation)
-          {
-            destination.target.pose.rotation = grasp.pose.rotation;
-          }
+          destination.target.pose.rotation = simulation.findGrasp(id).pose.rotation;
         }
         simulation.drag(id, destination.target);
       });
@@ -58,6 +89,76 @@ void GraspServices::onRelease(const Release::Request& request, Release::Response
         simulation.release(id);
         return 1;
       }));
+}
+
+template <class Change>
+void GraspServices::onPins(const Pin::Request& request, Pin::Response& response, Change change)
+{
+  cloth::refuseIf(problems(request));
+  const cloth::Pose to_cloth =
+      request.radius == 0.0 ? cloth::Pose() : context_.frames.toCloth(request.header);
+  const cloth::PinRequest pins = toCore(request, to_cloth);
+  response.changed = static_cast<std::uint32_t>(
+      context_.loop.call([&](cloth::Simulation& simulation) { return change(simulation, pins); }));
+}
+
+void GraspServices::onGetGraspEvents(const GetGraspEvents::Request& request,
+                                     GetGraspEvents::Response& response)
+{
+  std::vector<cloth::GraspEvent> events;
+  std::array<std::uint64_t, 2> kept{};
+  context_.loop.call(
+      [&](cloth::Simulation& simulation)
+      {
+        events = simulation.graspEventsSince(request.since, mostOf(request.max_count));
+        kept = simulation.loggedGraspEvents();
+      });
+  response.header.frame_id = context_.placement.frame_id;
+  response.header.stamp = ros::Time::now();
+  response.events = toMessages(events, context_.placement);
+  response.oldest = kept[0];
+  response.newest = kept[1];
+}
+
+void GraspServices::onTargets(const GraspTargets::ConstPtr& message)
+{
+  context_.requests.hear("grasp_targets",
+                         [&]
+                         {
+                           cloth::refuseIf(problems(*message));
+                           const cloth::Pose to_cloth = context_.frames.toCloth(message->header);
+                           context_.loop.call([&](cloth::Simulation& simulation)
+                                              { steer(simulation, *message, to_cloth); });
+                         });
+}
+
+/// All of them or none. A grasp gets there in the simulated time since it was last steered.
+void GraspServices::steer(cloth::Simulation& simulation, const GraspTargets& message,
+                          const cloth::Pose& to_cloth)
+{
+  std::vector<cloth::Pose> poses;
+  std::vector<std::string> found;
+  for (const GraspTarget& target : message.targets)
+  {
+    const cloth::Grasp& grasp = simulation.findGrasp(target.grasp_id);
+    poses.push_back(poseFor(target.pose, to_cloth, grasp.pose));
+    const std::string name = "grasp " + std::to_string(grasp.id);
+    cloth::check(found, name + ": pose.position [m]", poses.back().position, cloth::MAX_COORDINATE);
+    if (!grasp.followed.empty())
+    {
+      found.push_back(name + " follows the frame " + grasp.followed);
+    }
+  }
+  cloth::refuseIf(found);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    const std::uint64_t id = message.targets[i].grasp_id;
+    const auto before = steered_at_.find(id);
+    const double since =
+        before == steered_at_.end() ? LONGEST_GLIDE : simulation.time() - before->second;
+    simulation.steer(id, poses[i], std::min(since, LONGEST_GLIDE));
+    steered_at_[id] = simulation.time();
+  }
 }
 
 }  // namespace cloth_tearing

@@ -127,6 +127,8 @@ std::vector<std::string> problems(const NodeParams& params)
   }
   check(found, "tf_patience [s]", params.tf_patience, Range::between(0.0, 10.0));
   check(found, "command_patience [s]", params.command_patience, Range::between(0.01, 60.0));
+  check(found, "frame_timeout [s]", params.frame_timeout, Range::between(0.01, 60.0));
+  check(found, "grasp_state_rate [Hz]", params.grasp_state_rate, Range::between(0.1, 1000.0));
   check(found, "marker_rate [Hz]", params.marker_rate, Range::between(0.1, 1000.0));
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
@@ -144,14 +146,18 @@ std::vector<std::string> problems(const NodeParams& params)
   return found;
 }
 
+double floorInClothFrame(bool floor, double height, double origin)
+{
+  return floor ? height - origin : height;
+}
+
 cloth::SimulationParams inClothFrame(const NodeParams& params)
 {
   cloth::SimulationParams simulation = params.simulation;
   simulation.strength = cloth::turned(simulation.strength, params.cloth_pose.rotation);
-  if (simulation.contact.floor)
-  {
-    simulation.contact.floor_height -= params.cloth_pose.position.z();
-  }
+  cloth::ContactParams& contact = simulation.contact;
+  contact.floor_height =
+      floorInClothFrame(contact.floor, contact.floor_height, params.cloth_pose.position.z());
   return simulation;
 }
 

@@ -274,6 +274,44 @@ void ParamReader::read(const std::string& name, cloth::Vec3d& value)
   {
     value = cloth::Vec3d(numbers[0], numbers[1], numbers[2]);
   }
+  cloth::Vec3d axes;
+  if (readAxes(name, axes))
+  {
+    value = axes;
+  }
+}
+
+/// What ~set_parameters leaves behind, which knows no lists. @return whether it was there, in full
+bool ParamReader::readAxes(const std::string& name, cloth::Vec3d& value)
+{
+  const std::size_t before = problems_.size();
+  std::string missing;
+  int found = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::string axis = name + "/" + "xyz"[i];
+    const auto entry = left_.find(axis);
+    if (entry == left_.end())
+    {
+      missing += (missing.empty() ? "" : ", ") + axis;
+      continue;
+    }
+    ++found;
+    XmlRpcValue list;
+    list[0] = entry->second;
+    std::vector<double> number;
+    if (toNumbers(axis, list, 1, "", number))
+    {
+      value[i] = number[0];
+    }
+    left_.erase(entry);
+  }
+  if (found > 0 && found < 3)
+  {
+    note("there is no " + missing + ": " + name +
+         " must be a list of three numbers or a group of x, y and z");
+  }
+  return found == 3 && problems_.size() == before;
 }
 
 void ParamReader::read(const std::string& name, std::array<double, 2>& value)

@@ -25,6 +25,11 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.read("clock_rate", params.clock_rate);
   reader.read("tf_patience", params.tf_patience);
   reader.read("command_patience", params.command_patience);
+  reader.read("frame_timeout", params.frame_timeout);
+  reader.readChoice<LostFrame>("lost_frame",
+                               { { "hold", LostFrame::HOLD }, { "release", LostFrame::RELEASE } },
+                               params.lost_frame);
+  reader.read("grasp_state_rate", params.grasp_state_rate);
   reader.read("marker_rate", params.marker_rate);
   reader.read("surface_rate", params.surface_rate);
   reader.read("status_rate", params.status_rate);
@@ -84,9 +89,7 @@ void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
 
   reader.read("material/areal_density", simulation.material.areal_density);
   reader.readChoice<cloth::StiffnessLaw>("material/stiffness_law",
-                                         { { "per_width", cloth::StiffnessLaw::PER_WIDTH },
-                                           { "per_spring", cloth::StiffnessLaw::PER_SPRING } },
-                                         simulation.material.stiffness_law);
+                                         stiffnessLaws(), simulation.material.stiffness_law);
   reader.read("material/stiffness", simulation.material.stiffness);
   reader.read("material/bend_shear_stiffness", simulation.material.bend_shear_stiffness);
   reader.read("material/damping", simulation.material.damping);
@@ -170,6 +173,15 @@ void readAll(ParamReader& reader, NodeParams& params)
 }
 
 }  // namespace
+
+const std::map<std::string, cloth::StiffnessLaw>& stiffnessLaws()
+{
+  static const std::map<std::string, cloth::StiffnessLaw> names = {
+    { "per_width", cloth::StiffnessLaw::PER_WIDTH },
+    { "per_spring", cloth::StiffnessLaw::PER_SPRING }
+  };
+  return names;
+}
 
 void readMarkers(ParamReader& reader, MarkerStyle& style)
 {

@@ -1,7 +1,9 @@
 // Sets and throws spheres, as requested.
 #include "cloth_tearing/node/sphere_services.h"
 
-#include <ros/console.h>
+#include <map>
+#include <optional>
+#include <string>
 
 #include "cloth_tearing/core/refusal.h"
 
@@ -11,7 +13,19 @@ namespace cloth_tearing
 namespace
 {
 
-constexpr double COMPLAIN_EVERY = 5.0;  // [s], about what comes on a topic
+/// Those that follow a frame of their own.
+std::vector<FramedSphere> framedSpheres(const CollisionSpheres& message)
+{
+  std::vector<FramedSphere> framed;
+  for (const CollisionSphere& sphere : message.spheres)
+  {
+    if (!sphere.frame.empty())
+    {
+      framed.push_back({ sphere.id, sphere.frame, toVector(sphere.center) });
+    }
+  }
+  return framed;
+}
 
 }  // namespace
 
@@ -33,24 +47,43 @@ void SphereServices::onThrowSphere(const ThrowSphere::Request& request,
 
 void SphereServices::onSpheres(const CollisionSpheres::ConstPtr& message)
 {
-  const std::string reason = context_.requests.refusal(
-      "spheres",
-      [&]
-      {
-        cloth::refuseIf(problems(*message));
-        std::vector<cloth::Sphere> spheres;
-        if (!message->spheres.empty())
-        {
-          spheres = toCore(*message, context_.frames.toCloth(message->header));
-        }
-        context_.loop.call([&spheres](cloth::Simulation& simulation)
-                           { simulation.setSpheres(spheres); });
-        context_.publisher.touch();
-      });
-  if (!reason.empty())
+  context_.requests.hear("spheres",
+                         [&]
+                         {
+                           cloth::refuseIf(problems(*message));
+                           const std::vector<FramedSphere> framed = framedSpheres(*message);
+                           const std::vector<cloth::Sphere> spheres = placed(*message);
+                           context_.loop.call(
+                               [&](cloth::Simulation& simulation)
+                               {
+                                 simulation.setSpheres(spheres);
+                                 context_.follower.setSpheres(framed);
+                               });
+                         });
+}
+
+/// All spheres where they are now: each in the frame of its own, or in that of the header.
+std::vector<cloth::Sphere> SphereServices::placed(const CollisionSpheres& message) const
+{
+  std::optional<cloth::Pose> common;  // not asked for if all have frames of their own
+  std::map<std::string, cloth::Pose> own;
+  std::vector<cloth::Sphere> spheres;
+  for (const CollisionSphere& sphere : message.spheres)
   {
-    ROS_WARN_STREAM_THROTTLE(COMPLAIN_EVERY, "A message on spheres was refused: " << reason);
+    if (sphere.frame.empty())
+    {
+      common = common ? *common : context_.frames.toCloth(message.header);
+      spheres.push_back(toCore(sphere, *common));
+      continue;
+    }
+    if (own.count(sphere.frame) == 0)
+    {
+      own[sphere.frame] = context_.frames.toCloth(
+          sphere.frame, ros::Time(0), "sphere " + std::to_string(sphere.id) + ": frame");
+    }
+    spheres.push_back(toCore(sphere, own[sphere.frame]));
   }
+  return spheres;
 }
 
 }  // namespace cloth_tearing

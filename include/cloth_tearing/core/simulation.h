@@ -214,6 +214,10 @@ public:
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
   const std::vector<Grasp>& grasps() const { return grippers_.all(); }
+
+  /// @throws Refusal if there is no such grasp
+  const Grasp& findGrasp(std::uint64_t id) const { return grippers_.find(id); }
+
   const std::vector<Sphere>& spheres() const { return spheres_.all(); }
   double time() const
   {

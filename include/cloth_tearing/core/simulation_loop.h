@@ -65,6 +65,9 @@ public:
     /// must not wait.
     std::function<void(Simulation&)> before_step;
 
+    /// Called on the loop's thread when commands may have been run: quick work only.
+    std::function<void(const Simulation&)> after_commands;
+
     /// What Pace::CLOCK follows, and is told of when it jumped. Both are called on the loop's
     /// thread and must not wait.
     std::function<ClockFollower::Reading()> clock;

@@ -10,9 +10,11 @@
 #include "cloth_tearing/node/clock_publisher.h"
 #include "cloth_tearing/node/cloth_publisher.h"
 #include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/frame_follower.h"
 #include "cloth_tearing/node/frames.h"
 #include "cloth_tearing/node/grasp_services.h"
 #include "cloth_tearing/node/node_params.h"
+#include "cloth_tearing/node/pull_server.h"
 #include "cloth_tearing/node/request_server.h"
 #include "cloth_tearing/node/sphere_services.h"
 
@@ -46,12 +48,16 @@ private:
   ros::NodeHandle node_;
   ros::NodeHandle step_node_;
   Frames frames_;
+  FrameFollower follower_;  ///< of the loop's thread
   ClothPublisher publisher_;
   ClockPublisher clock_;
+  NewestNumber pull_ends_;
   RequestServer requests_;
   cloth::SimulationLoop loop_;
   GraspServices grasps_;
   SphereServices spheres_;
+  PullServer pulls_;
+  PullPredictor predictions_;
   ros::AsyncSpinner spinner_;
   ros::AsyncSpinner step_spinner_;
 };

@@ -1,4 +1,4 @@
-// Publishes what the simulation does: markers, surface, status and tears.
+// Publishes what the simulation does: markers, surface, status, grasps and tears.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -16,6 +16,7 @@
 #include "cloth_tearing/core/simulation_loop.h"
 #include "cloth_tearing/node/cloth_markers.h"
 #include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/grasp_publisher.h"
 #include "cloth_tearing/node/node_params.h"
 
 namespace cloth_tearing
@@ -65,7 +66,10 @@ public:
   void stop();
 
   /// To be told after every step, on the loop's thread.
-  void onStep(const cloth::StepReport& report);
+  void onStep(const cloth::Simulation& simulation, const cloth::StepReport& report);
+
+  /// To be told when commands may have changed something, on the loop's thread.
+  void onCommands(const cloth::Simulation& simulation);
 
   /// Something changed that should be seen at once.
   void touch();
@@ -97,9 +101,11 @@ private:
 
   void run();
   Clock::time_point nextTurn() const;
+  bool heard(const Channel& channel) const;
   bool takeTurn(Channel& channel, bool wanted, bool unchanged_too, Clock::time_point now) const;
   void publishSnapshot(bool markers, bool surface);
   void publishStatus();
+  void publishGrasps();
   void publishTears(const std::vector<cloth::TearEvent>& tears) const;
 
   Placement placement_;
@@ -109,7 +115,9 @@ private:
   Channel markers_;
   Channel surface_;
   Channel status_;
+  Channel grasp_states_;
   ros::Publisher tear_events_;
+  GraspPublisher grasps_;
 
   std::atomic<std::uint64_t> version_{ 1 };  ///< +1 by every step and command
   std::atomic<int> postponed_{ 0 };

@@ -10,6 +10,7 @@
 #include <cloth_tearing/Step.h>
 #include <cloth_tearing/TearEvents.h>
 #include <cloth_tearing/ThrowSphere.h>
+#include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
 
 #include <string>
@@ -32,6 +33,11 @@ struct Placement
 
 /// `x` [m] of the cloth frame, in frame_id.
 geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement);
+
+geometry_msgs::Vector3 toVector3(const cloth::Vec3d& v);
+
+/// In frame_id.
+geometry_msgs::Pose toPose(const cloth::Pose& pose, const Placement& placement);
 
 /// The header has no stamp yet.
 ClothSurface toMessage(const cloth::Surface& surface, const Placement& placement);
@@ -71,6 +77,19 @@ std::vector<std::string> problems(const Drag::Request& request);
 std::vector<std::string> problems(const ThrowSphere::Request& request);
 std::vector<std::string> problems(const CollisionSpheres& message);
 
+/// A quaternion of zeros means: as it is.
+bool isZero(const geometry_msgs::Quaternion& q);
+
+/// Adds a sentence to `found` unless `q` is zero or a unit quaternion, to a thousandth.
+void checkOrientation(std::vector<std::string>& found, const std::string& field,
+                      const geometry_msgs::Quaternion& q);
+
+cloth::Vec3d toVector(const geometry_msgs::Point& p);
+cloth::Vec3d toVector(const geometry_msgs::Vector3& v);
+
+/// A pose of some frame in the cloth frame; its rotation only if it has one.
+cloth::Pose toClothFrame(const geometry_msgs::Pose& pose, const cloth::Pose& to_cloth);
+
 /// A transform as a pose: x -> translation + rotation * x, into the cloth frame.
 cloth::Pose toClothFrame(const geometry_msgs::Transform& transform, const Placement& placement);
 
@@ -88,6 +107,6 @@ Destination toCore(const Drag::Request& request, const cloth::Pose& to_cloth);
 
 cloth::ThrowRequest toCore(const ThrowSphere::Request& request, const cloth::Pose& to_cloth);
 
-std::vector<cloth::Sphere> toCore(const CollisionSpheres& message, const cloth::Pose& to_cloth);
+cloth::Sphere toCore(const CollisionSphere& sphere, const cloth::Pose& to_cloth);
 
 }  // namespace cloth_tearing

@@ -27,6 +27,11 @@ public:
   /// @throws cloth::Refusal if frame_id is empty or there is no transform in time
   cloth::Pose toCloth(const std_msgs::Header& header) const;
 
+  /// The same for a frame that is named elsewhere.
+  /// @param field that names it, for the reason
+  cloth::Pose toCloth(const std::string& frame, const ros::Time& stamp,
+                      const std::string& field) const;
+
   /// Where a frame is, by the newest transform there is. Does not wait.
   struct Latest
   {

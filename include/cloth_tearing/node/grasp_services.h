@@ -1,14 +1,21 @@
-// Requests that take hold of the cloth, drag it and let go.
+// Requests that take hold of the cloth, move what they hold, let go, and pin.
 #pragma once
 
+#include <cloth_tearing/GetGraspEvents.h>
+#include <cloth_tearing/GraspTargets.h>
+#include <cloth_tearing/Pin.h>
 #include <cloth_tearing/Release.h>
+#include <ros/subscriber.h>
+
+#include <cstdint>
+#include <map>
 
 #include "cloth_tearing/node/request_server.h"
 
 namespace cloth_tearing
 {
 
-/// ~grasp, ~drag and ~release.
+/// ~grasp, ~drag, ~release, ~pin, ~unpin, ~get_grasp_events and ~grasp_targets.
 class GraspServices
 {
 public:
@@ -18,8 +25,16 @@ private:
   void onGrasp(const Grasp::Request& request, Grasp::Response& response);
   void onDrag(const Drag::Request& request);
   void onRelease(const Release::Request& request, Release::Response& response);
+  template <class Change>
+  void onPins(const Pin::Request& request, Pin::Response& response, Change change);
+  void onGetGraspEvents(const GetGraspEvents::Request& request, GetGraspEvents::Response& response);
+  void onTargets(const GraspTargets::ConstPtr& message);
+  void steer(cloth::Simulation& simulation, const GraspTargets& message,
+             const cloth::Pose& to_cloth);
 
   NodeContext context_;
+  ros::Subscriber targets_;
+  std::map<std::uint64_t, double> steered_at_;  ///< by grasp, in simulated time [s]; the loop's
 };
 
 }  // namespace cloth_tearing

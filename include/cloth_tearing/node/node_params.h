@@ -24,6 +24,13 @@ enum class Coloring
   WIREFRAME,  ///< the springs alone, from pale to red by their strain
 };
 
+/// What a grasp does whose frame is lost.
+enum class LostFrame
+{
+  HOLD,     ///< stays where the frame was last
+  RELEASE,  ///< lets go
+};
+
 /// How ~markers look.
 struct MarkerStyle
 {
@@ -59,6 +66,9 @@ struct NodeParams
 
   double tf_patience = 0.2;       ///< how long a request may wait for its transform [s], 0 to 10
   double command_patience = 1.0;  ///< how long it may wait for the simulation [s], 0.01 to 60
+  double frame_timeout = 0.5;     ///< a frame without news for so long is lost [s], 0.01 to 60
+  LostFrame lost_frame = LostFrame::HOLD;
+  double grasp_state_rate = 50.0;  ///< ~grasp_states and wrenches at most so often [Hz], 0.1 to 1000
   double marker_rate = 30.0;      ///< ~markers at most so often [Hz], 0.1 to 1000
   double surface_rate = 30.0;     ///< ~surface at most so often [Hz], 0.1 to 1000
   double status_rate = 10.0;      ///< ~status so often [Hz], 0.1 to 1000
@@ -72,6 +82,10 @@ std::vector<std::string> problems(const MarkerStyle& style);
 
 /// Everything wrong with where the cloth is: frame_id and cloth_pose/position [m] in it.
 std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position);
+
+/// A height in frame_id [m] over the cloth frame's origin. Where there is no floor its height may be
+/// anything, and stays.
+double floorInClothFrame(bool floor, double height, double origin);
 
 /// The simulation's parameters with the floor's height and the strength map in the cloth frame,
 /// whose axes are those of frame_id and whose origin is cloth_pose.position.

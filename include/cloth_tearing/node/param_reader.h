@@ -26,7 +26,7 @@ public:
   void read(const std::string& name, int& value);
   void read(const std::string& name, double& value);
   void read(const std::string& name, std::string& value);
-  void read(const std::string& name, cloth::Vec3d& value);
+  void read(const std::string& name, cloth::Vec3d& value);  ///< a list, or a group of x, y and z
   void read(const std::string& name, std::array<double, 2>& value);
   void read(const std::string& name, cloth::Quatd& value);  ///< x, y, z, w; normalised
   void read(const std::string& name, std::vector<int>& value);
@@ -68,6 +68,7 @@ private:
                  const std::string& expected, std::vector<double>& numbers);
   bool readNumbers(const std::string& name, std::size_t count, const std::string& expected,
                    std::vector<double>& numbers);
+  bool readAxes(const std::string& name, cloth::Vec3d& value);
   void noteWrongType(const std::string& name, const XmlRpc::XmlRpcValue& value,
                      const std::string& expected);
   std::string readOneOf(const std::string& name, const std::vector<std::string>& choices);

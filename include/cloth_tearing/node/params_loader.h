@@ -4,6 +4,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree);
 
 /// The names of all parameters, group/entry, ascending.
 std::vector<std::string> parameterNames();
+
+/// The names of material/stiffness_law.
+const std::map<std::string, cloth::StiffnessLaw>& stiffnessLaws();
 
 /// What other nodes are told in the same words: the group `markers`, how a rectangle is meshed, and
 /// `solver`.

@@ -1,10 +1,13 @@
 // Hosts services that answer with success and a reason, and counts what was refused.
 #pragma once
 
+#include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -13,6 +16,7 @@
 #include "cloth_tearing/core/simulation_loop.h"
 #include "cloth_tearing/node/cloth_publisher.h"
 #include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/frame_follower.h"
 #include "cloth_tearing/node/frames.h"
 
 namespace cloth_tearing
@@ -58,7 +62,24 @@ public:
     services_.push_back(node.advertiseService(name, callback));
   }
 
-  /// Does `work`, which came on the topic or action `name`.
+  /// Does `work`, which came as a message on the topic `name`. Nobody waits for an answer: a
+  /// refusal is a warning.
+  template <class Work>
+  void hear(const std::string& name, Work work)
+  {
+    const std::string reason = refusal(name, work);
+    if (reason.empty())
+    {
+      publisher_.touch();
+    }
+    else
+    {
+      ROS_WARN_STREAM_THROTTLE(COMPLAIN_EVERY,
+                               "A message on " << name << " was refused: " << reason);
+    }
+  }
+
+  /// Does `work`, which was asked for as `name`.
   /// @return why it was refused, which was counted; empty if it was done
   template <class Work>
   std::string refusal(const std::string& name, Work work)
@@ -77,9 +98,17 @@ public:
   }
 
 private:
+  static constexpr double COMPLAIN_EVERY = 5.0;  // [s]
+
   ClothPublisher& publisher_;
   std::vector<ros::ServiceServer> services_;
 };
+
+/// How many entries a request for at most `max_count` wants; 0 = all.
+inline std::size_t mostOf(std::uint32_t max_count)
+{
+  return max_count == 0 ? std::numeric_limits<std::size_t>::max() : max_count;
+}
 
 /// What every group of requests works with. All of it outlives the groups.
 struct NodeContext
@@ -90,6 +119,7 @@ struct NodeContext
   ClothPublisher& publisher;
   RequestServer& requests;
   cloth::SimulationLoop& loop;
+  FrameFollower& follower;
 };
 
 }  // namespace cloth_tearing

@@ -3,6 +3,8 @@
 
 #include <ros/subscriber.h>
 
+#include <vector>
+
 #include "cloth_tearing/node/request_server.h"
 
 namespace cloth_tearing
@@ -17,6 +19,7 @@ public:
 private:
   void onThrowSphere(const ThrowSphere::Request& request, ThrowSphere::Response& response);
   void onSpheres(const CollisionSpheres::ConstPtr& message);
+  std::vector<cloth::Sphere> placed(const CollisionSpheres& message) const;
 
   NodeContext context_;
   ros::Subscriber spheres_;
