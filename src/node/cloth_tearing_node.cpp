@@ -3,15 +3,12 @@
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/node_handle.h>
-#include <ros/param.h>
 
 #include <csignal>
 #include <ctime>
 #include <exception>
-#include <string>
 
-#include "cloth_tearing/node/cloth_node.h"
-#include "cloth_tearing/node/params_loader.h"
+#include "cloth_tearing/node/make_cloth_node.h"
 
 namespace
 {
@@ -58,29 +55,14 @@ void waitForEnd(const sigset_t& signals)
 /// @return exit status
 int run(const sigset_t& signals)
 {
-  ros::NodeHandle node("~");
-  XmlRpc::XmlRpcValue tree;
-  ros::param::get(node.getNamespace(), tree);
-  const cloth_tearing::LoadedParams loaded = cloth_tearing::loadParams(tree);
-  if (!loaded.problems.empty())
-  {
-    std::string all;
-    for (const std::string& problem : loaded.problems)
-    {
-      all += "\n  " + problem;
-    }
-    ROS_FATAL_STREAM(loaded.problems.size()
-                     << " wrong parameters of " << node.getNamespace() << ":" << all);
-    return 1;
-  }
   try
   {
-    cloth_tearing::ClothNode cloth(node, loaded.params);
+    const auto cloth = cloth_tearing::makeClothNode(ros::NodeHandle("~"));
     waitForEnd(signals);
   }
   catch (const std::exception& error)
   {
-    ROS_FATAL_STREAM("cannot build the cloth: " << error.what());
+    ROS_FATAL_STREAM(error.what());
     return 1;
   }
   return 0;
