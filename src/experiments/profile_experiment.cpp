@@ -17,7 +17,6 @@ constexpr double PULL_TIME = 0.3;       ///< a place is pulled for so long at mo
 constexpr int PULL_TEARS = 8;           ///< after so many tears a place is let go
 constexpr double PULL_SPEED = 4.0;      ///< [m/s]
 constexpr double GRASP_RADIUS = 0.25;   ///< about one spacing [m]
-constexpr double SETTLING = 6.0;        ///< the cloth hangs still after so long [s]
 constexpr double HIGHEST = 0.8;         ///< place of the last pull over the height of the cloth [-]
 
 /// Times the phases of steps on the steady clock.
@@ -148,7 +147,7 @@ Simulation profileCloth(const Setting& setting)
   params.environment.wind = Vec3d(0.5, 2.0, 0.0);
   params.environment.wind_drag = 0.05;
   Simulation simulation = hungSheet(thesisSheet(setting), params);
-  settle(simulation, SETTLING);
+  settle(simulation, HANGS_STILL);
   return simulation;
 }
 

@@ -7,12 +7,6 @@
 
 namespace cloth
 {
-namespace
-{
-
-constexpr double SETTLING = 6.0;  ///< the cloth hangs still after so long [s]
-
-}  // namespace
 
 SimulationParams thesisParams(const Setting& setting)
 {
@@ -55,8 +49,8 @@ SimulationParams thesisParams(const Setting& setting)
 RectangleParams thesisSheet(const Setting& setting)
 {
   RectangleParams sheet;
-  sheet.width = 6.0;
-  sheet.height = 8.0;
+  sheet.width = thesisSheetSize().x();
+  sheet.height = thesisSheetSize().y();
   sheet.columns = setting.resolution;
   sheet.rows = setting.resolution;
   sheet.pattern = setting.pattern;
@@ -98,7 +92,7 @@ void settle(Simulation& simulation, double seconds)
 Simulation hungCloth(const Setting& setting)
 {
   Simulation simulation = hungSheet(thesisSheet(setting), thesisParams(setting));
-  settle(simulation, SETTLING);
+  settle(simulation, HANGS_STILL);
   return simulation;
 }
 

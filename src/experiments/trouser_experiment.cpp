@@ -12,7 +12,7 @@ namespace cloth
 namespace
 {
 
-const Vec2d SHEET(6.0, 8.0);             ///< thesisSheet() [m]
+const Vec2d SHEET = thesisSheetSize();   ///< [m]
 constexpr double CUT = 4.0;              ///< its length [m]
 constexpr double FAR = 3.0;              ///< the tear is long enough [m]
 constexpr double RADIUS = 0.75;          ///< of the discs that are held [m]

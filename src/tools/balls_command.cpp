@@ -85,7 +85,7 @@ void fiveBalls(const Simulation& hung, const Setting& setting, Output& output, C
     const BallOutcome outcome = throwBall(simulation, thrown);
     count.add(outcome.agrees(thrown));
     report(setting, { thrown, outcome, experiment, outcome.agrees(thrown) }, output);
-    output.snapshot("balls_" + clothName(setting) + "_" + experiment + ".obj", simulation);
+    output.snapshot("balls_" + fileName(setting) + "_" + experiment + ".obj", simulation);
   }
 }
 
@@ -103,7 +103,7 @@ void threeBalls(const Simulation& hung, const Setting& setting, Output& output, 
   {
     report(setting, { throws[i], outcomes[i], "three", agrees }, output);
   }
-  output.snapshot("balls_" + clothName(setting) + "_three.obj", simulation);
+  output.snapshot("balls_" + fileName(setting) + "_three.obj", simulation);
 }
 
 }  // namespace

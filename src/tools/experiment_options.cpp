@@ -139,6 +139,17 @@ std::string clothName(const Setting& setting)
                                                         : name;
 }
 
+std::string fileName(const Setting& setting)
+{
+  const Setting usual;
+  std::string name = nameOf(setting.pattern);
+  name += "_" + std::to_string(setting.resolution) + "_" + std::to_string(setting.seed);
+  name += setting.solver == usual.solver ? "" : std::string("_") + nameOf(setting.solver);
+  name += setting.grading == usual.grading ? "" : "_grading_" + text(setting.grading);
+  name += setting.time_step == usual.time_step ? "" : "_dt_" + text(setting.time_step);
+  return name;
+}
+
 std::vector<Setting> Options::settings(const std::vector<int>& default_resolutions,
                                        const std::vector<RectanglePattern>& default_meshes,
                                        const std::vector<int>& default_seeds) const

@@ -42,6 +42,10 @@ const char* nameOf(SolverKind solver);
 /// Mesh, resolution and, where it matters, seed: to name a run or a file.
 std::string clothName(const Setting& setting);
 
+/// All that a run can be made with, so that no two runs share a file: clothName(), the seed of
+/// every mesh, and whatever is not the default.
+std::string fileName(const Setting& setting);
+
 extern const std::vector<RectanglePattern> ALL_MESHES;
 
 }  // namespace cloth

@@ -155,7 +155,7 @@ bool profile(const Options& options)
       profiled.runs.push_back(profile(simulation));
       if (run == 0)
       {
-        output.snapshot("profile_" + clothName(profiled.setting) + ".obj", simulation);
+        output.snapshot("profile_" + fileName(profiled.setting) + ".obj", simulation);
       }
     }
   }

@@ -51,9 +51,9 @@ bool textureOn(const Setting& setting, Output& output)
   print("put back", fit, fit.fits());
   print("two corners swapped", swapped, !swapped.fits());
   output.row(columns(setting, torn, fit, swapped));
-  output.snapshot("texture_" + clothName(setting) + "_torn.obj", torn);
+  output.snapshot("texture_" + fileName(setting) + "_torn.obj", torn);
   putBackSlowly(torn, hung.cloth(), [](const Simulation&, const StepReport&) {});
-  output.snapshot("texture_" + clothName(setting) + "_put_back.obj", torn);
+  output.snapshot("texture_" + fileName(setting) + "_put_back.obj", torn);
   return fit.fits() && !swapped.fits() && several;
 }
 

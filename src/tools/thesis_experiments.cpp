@@ -29,7 +29,7 @@ options; LIST is one value or several with commas between, and every combination
   --grading G        spacing at the border over spacing in the middle, 0.2 to 5 (default 1)
   --solver NAME      xpbd (default) or force_springs
   --time-step LIST   [s] (default 0.001)
-  --output DIR       writes a row a run to DIR/EXPERIMENT.csv, and cloths as OBJ files
+  --output DIR       one CSV row per run in DIR/EXPERIMENT.csv, cloths as OBJ files
   --help             this text
 )";
 
@@ -46,7 +46,7 @@ const Command COMMANDS[] = {
   { "map", map, "4.1: which radius tears the cloth from which speed on" },
   { "variations", variations, "4.1: the balls with ten parameters 10 and 20 percent up and down" },
   { "nonuniform", nonuniform, "4.3: half the particles, fine in the middle, and the time saved" },
-  { "direction", direction, "4.2: the crack opens across the pull, the flap hangs along it" },
+  { "direction", direction, "4.2: the crack opens across the pull and goes on in its direction" },
   { "trouser", trouser, "4.2: legs pulled apart; the tear runs on along the cut; the force" },
   { "profile", profile, "4.3: what tearing costs while the cloth is torn all the time" },
   { "texture", texture, "3.3: torn cloth that is put back shows the texture it had" },

@@ -69,10 +69,7 @@ bool trouser(const Options& options)
     const TrouserOutcome outcome = pullLegs(simulation);
     print(setting, outcome);
     output.row(columns(setting, outcome));
-    output.snapshot(std::string("trouser_") + nameOf(setting.pattern) + "_" +
-                        std::to_string(setting.resolution) + "_" + std::to_string(setting.seed) +
-                        ".obj",
-                    simulation);
+    output.snapshot("trouser_" + fileName(setting) + ".obj", simulation);
     holds &= runsOn(outcome);
   }
   std::printf("%s\n", holds ? "the tear runs on along the cut" : "NOT ALL TEARS RUN ON");

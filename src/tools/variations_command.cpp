@@ -13,8 +13,6 @@ namespace cloth
 namespace
 {
 
-constexpr double SETTLING = 6.0;  ///< [s]
-
 struct Variation
 {
   const char* name;
@@ -58,7 +56,7 @@ std::string flips(const Setting& setting, const SimulationParams& params, const 
                   Output& output)
 {
   Simulation hung = hungSheet(thesisSheet(setting), params);
-  settle(hung, SETTLING);
+  settle(hung, HANGS_STILL);
   std::string flipped;
   for (std::size_t i = 0; i < THESIS_THROWS.size(); ++i)
   {

@@ -24,6 +24,9 @@ struct DirectionPull
 /// cloth before the disc cannot fold, but is crushed in its plane and breaks up.
 DirectionPull framedPull(double angle, const Vec2d& shift);
 
+/// A pull for framedCloth() straight out of the sheet, the control: it has no direction in it.
+DirectionPull outwardPull(const Vec2d& shift);
+
 /// A pull down for hungCloth(), hardly lifted: its lower part is free to give way. The disc is
 /// larger, for it carries that part, 24 N, when the cloth above it has torn.
 DirectionPull downwardPull(const Vec2d& shift);
@@ -32,19 +35,40 @@ DirectionPull downwardPull(const Vec2d& shift);
 /// meshes that have no seed of their own.
 Vec2d shiftOf(std::uint64_t seed);
 
+/// A crack in the material against the direction of a pull, 0 along it, 90 across [degrees].
+struct CrackAngles
+{
+  double line = 0.0;   ///< of the crack as a whole, lineAngleTo()
+  double edges = 0.0;  ///< mean over its edges, teeth and all, meanAngleTo()
+};
+
+/// Where a tear went on after its first metre: from the middle of the edges that it opened until
+/// then to the middle of all that it opened afterwards, in the material.
+struct TearCourse
+{
+  double along = 0.0;   ///< in the direction of the pull; negative: against it [m]
+  double across = 0.0;  ///< to the left of it [m]
+
+  /// To the direction of the pull: 0 with it, 180 against it [degrees].
+  double angle() const;
+};
+
 struct DirectionOutcome
 {
-  /// Angle between pull and crack in the material, see meanAngleTo(), when the crack is 1 m long
-  /// (2 m of tornLength(), which counts both sides); none if it never was [degrees].
-  std::optional<double> crack_angle;
-  std::optional<double> later_crack_angle;  ///< the same at twice that length [degrees]
-  double first_tear = 0.0;  ///< way of the gripper when it tore first [m]; 0 = never
+  /// When the crack is 1 m long (2 m of tornLength(), which counts both sides); none if it never
+  /// was.
+  std::optional<CrackAngles> crack;
+  std::optional<CrackAngles> later_crack;  ///< the same at twice that length
+  std::optional<TearCourse> course;  ///< none if the crack never was 1 m long, or grew no more
+  double first_tear = 0.0;           ///< way of the gripper when it tore first [m]; 0 = never
 
-  /// At the end of the pull, the angle in the world between the pull and the line from the gripper
-  /// to the flap, 0 to 90. The flap is the cloth up to 1 m round the disc in the material that
-  /// still hangs together with it there, taken at its centre of area. None if nothing tore, or no
-  /// cloth is left round the disc [degrees].
-  std::optional<double> flap_angle;
+  /// Angle in the world between the pull and the line to the gripper from the flap: 0 if it trails
+  /// straight behind the gripper, 180 if it lies straight ahead. The flap is the cloth up to 1 m
+  /// round the disc in the material that still hangs together with it there, taken at its centre of
+  /// area; untorn cloth has one too. None if no cloth is left round the disc [degrees].
+  std::optional<double> flap_angle;       ///< half way
+  std::optional<double> last_flap_angle;  ///< at the end of the pull
+  bool loose = false;                     ///< in the end the disc hangs from no pin any more
   int tears = 0;
   int released = 0;          ///< of them, springs that could only be released
   double torn_length = 0.0;  ///< tornLength() at the end [m]
@@ -56,6 +80,9 @@ struct DirectionOutcome
 /// to tear, and a pull sideways swings it like a curtain.
 /// @throws as hungCloth()
 Simulation framedCloth(const Setting& setting);
+
+/// The same cloth with tearing off, to be pulled for comparison.
+Simulation withoutTearing(const Simulation& simulation);
 
 /// Takes hold of the middle of a settled cloth and pulls.
 /// @throws std::runtime_error if it runs away

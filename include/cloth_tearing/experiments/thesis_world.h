@@ -24,12 +24,21 @@ struct Setting
   double time_step = 0.001;  ///< [s]
 };
 
+/// A hung cloth is at rest after so long [s].
+constexpr double HANGS_STILL = 6.0;
+
+/// Width and height of the thesis' sheet [m].
+inline Vec2d thesisSheetSize()
+{
+  return Vec2d(6.0, 8.0);
+}
+
 /// One parameter set for all experiments of a solver. XPBD has the mesh-independent stiffness and
 /// tear rules; the force springs the thesis' own, to the letter: one constant for all springs, each
 /// of which tears on its own strain.
 SimulationParams thesisParams(const Setting& setting);
 
-/// The sheet of 6 x 8.
+/// The sheet of thesisSheetSize().
 RectangleParams thesisSheet(const Setting& setting);
 
 /// A sheet in the x-z plane that hangs from its upper edge at z = 0, its front towards -y, before
