@@ -2,13 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "cloth_tearing/core/archive.h"
+#include "cloth_tearing/core/simulation_loop.h"
 #include "determinism_scenes.h"
 #include "scenes.h"
 
@@ -395,6 +400,34 @@ TEST(SavedStateLog, OfAStateHasOnlyTheTearsThatMadeItsCloth)
   EXPECT_EQ(other.loggedTears()[1], simulation.revision());
   EXPECT_EQ(other.tearsSince(1, 1000000).back().step,
             simulation.tearsSince(1, 1000000).back().step);
+}
+
+// -- the loop ------------------------------------------------------------------------------------
+
+TEST(SavedStateLoop, IsRestoredBetweenStepsAndCutsAStepShort)
+{
+  SimulationLoop::Options options;
+  options.pace = Pace::STEP;
+  options.patience = std::chrono::seconds(20);
+  std::promise<void> running;
+  std::once_flag once;
+  SimulationLoop loop(std::make_unique<Simulation>(another()), options,
+                      [&](const Simulation&, const StepReport&)
+                      { std::call_once(once, [&] { running.set_value(); }); });
+  const std::string state = loop.call([](Simulation& simulation) { return simulation.save(); });
+  auto stepping = std::async(std::launch::async, [&] { return loop.step(1000000000); });
+  running.get_future().wait();
+
+  EXPECT_THROW(loop.restore("no state"), Refusal);
+  const StepAnswer restored = loop.restore(state);
+
+  const StepAnswer cut = stepping.get();
+  EXPECT_NE(cut.cut_short.find("restored"), std::string::npos);
+  EXPECT_GT(cut.step, 0u);
+  EXPECT_EQ(cut.epoch, 0u);
+  EXPECT_EQ(restored.step, 0u);
+  EXPECT_EQ(restored.epoch, 1u);
+  EXPECT_EQ(restored.state_hash, another().stateHash());
 }
 
 // -- bytes that are no state ----------------------------------------------------------------------

@@ -93,7 +93,7 @@ std::string Simulation::save() const
   writer("origin", origin);
   writer("", *this);
   writer("checksum", checksum(writer.bytes().data(), writer.bytes().size()));
-  return writer.bytes();
+  return writer.take();
 }
 
 Simulation Simulation::restored(const std::string& bytes) const

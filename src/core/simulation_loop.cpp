@@ -175,14 +175,19 @@ void SimulationLoop::oneStep()
   }
 }
 
+void SimulationLoop::tell(StepAnswer& answer) const
+{
+  answer.time = simulation_->time();
+  answer.step = simulation_->stepCount();
+  answer.epoch = simulation_->epoch();
+  answer.state_hash = simulation_->stateHash();
+}
+
 void SimulationLoop::answerRequest(const std::string& cut_short)
 {
   Request& request = *requests_.front();
   request.answer.cut_short = cut_short;
-  request.answer.time = simulation_->time();
-  request.answer.step = simulation_->stepCount();
-  request.answer.epoch = simulation_->epoch();
-  request.answer.state_hash = simulation_->stateHash();
+  tell(request.answer);
   request.promise.set_value(request.answer);
   requests_.pop_front();
 }
@@ -234,6 +239,20 @@ void SimulationLoop::reset()
       {
         cutRequests("the simulation was reset");
         simulation.reset();
+      });
+}
+
+StepAnswer SimulationLoop::restore(const std::string& state)
+{
+  return call(
+      [&](Simulation& simulation)
+      {
+        Simulation restored = simulation.restored(state);
+        cutRequests("another state was restored");
+        simulation = std::move(restored);
+        StepAnswer answer;
+        tell(answer);
+        return answer;
       });
 }
 

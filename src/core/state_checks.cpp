@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "cloth_tearing/core/checks.h"
@@ -15,20 +16,34 @@ namespace
 
 constexpr int MOST_TEARS = 1000000000;  ///< that a pull may have counted
 
-void refuseUnless(bool condition, const std::string& problem)
+template <class Word>
+std::string word(const Word& word)
+{
+  if constexpr (std::is_arithmetic<Word>::value)
+  {
+    return std::to_string(word);
+  }
+  else
+  {
+    return word;
+  }
+}
+
+/// @param problem its words and numbers, put together only if they are needed
+template <class... Words>
+void refuseUnless(bool condition, const Words&... problem)
 {
   if (!condition)
   {
-    throw Refusal(problem);
+    throw Refusal((... + word(problem)));
   }
 }
 
 template <class T>
 void refuseOtherSize(const std::vector<T>& values, int count, const std::string& name)
 {
-  refuseUnless(values.size() == static_cast<std::size_t>(count),
-               name + " has " + std::to_string(values.size()) + " values, must have " +
-                   std::to_string(count));
+  refuseUnless(values.size() == static_cast<std::size_t>(count), name, " has ", values.size(),
+               " values, must have ", count);
 }
 
 /// Refuses values below 0, and 0 itself where they are to be above it.
@@ -37,9 +52,8 @@ void refuseSmall(const std::vector<T>& values, bool above, const std::string& na
 {
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    refuseUnless(above ? values[i] > T(0) : values[i] >= T(0),
-                 name + " " + std::to_string(i) + " is " + text(double(values[i])) + ", must be " +
-                     (above ? "greater than 0" : "at least 0"));
+    refuseUnless(above ? values[i] > T(0) : values[i] >= T(0), name, " ", i, " is ", values[i],
+                 ", must be ", above ? "greater than 0" : "at least 0");
   }
 }
 
@@ -72,7 +86,7 @@ void refuseSizes(const Cloth& cloth, const std::string& name)
 
 void refuseRestShape(const Cloth& cloth, const std::string& name)
 {
-  refuseUnless(cloth.rest.areal_density > 0.0, name + "/rest/areal_density is not above 0");
+  refuseUnless(cloth.rest.areal_density > 0.0, name, "/rest/areal_density is not above 0");
   refuseSmall(cloth.rest.mass, true, name + "/rest/mass");
   refuseSmall(cloth.rest.length, true, name + "/rest/length");
   refuseSmall(cloth.rest.bend_length, false, name + "/rest/bend_length");
@@ -82,25 +96,27 @@ void refuseRestShape(const Cloth& cloth, const std::string& name)
 }
 
 /// A law that carries something joins the particles `a` and `b`.
-void refuseLaw(const SpringLaw& law, ParticleId a, ParticleId b, const std::string& name)
+void refuseLaw(const SpringLaw& law, ParticleId a, ParticleId b, const std::string& table, int i)
 {
   const bool none = law.a == -1 && law.b == -1;
-  refuseUnless(none || (a.valid() && b.valid() && law.a == a.index && law.b == b.index),
-               name + " joins other particles than its spring");
-  refuseUnless(none || law.rest > 0, name + " has a rest length that is not above 0");
-  refuseUnless(law.stiffness >= 0 && law.damping >= 0, name + " has a stiffness below 0");
+  refuseUnless(none || (a.valid() && b.valid() && law.a == a.index && law.b == b.index), table, " ",
+               i, " joins other particles than its spring");
+  refuseUnless(none || law.rest > 0, table, " ", i, " has a rest length that is not above 0");
+  refuseUnless(law.stiffness >= 0 && law.damping >= 0, table, " ", i,
+               " has stiffness or damping below 0");
 }
 
 void refuseLaws(const Cloth& cloth, const std::string& name)
 {
+  const std::string structural = name + "/springs/structural";
+  const std::string bend_shear = name + "/springs/bend_shear";
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
   {
     const SpringId s{ i };
     const auto& ends = cloth.mesh.spring(s).particles;
-    refuseLaw(cloth.springs.structural[i], ends[0], ends[1],
-              name + "/springs/structural " + std::to_string(i));
+    refuseLaw(cloth.springs.structural[i], ends[0], ends[1], structural, i);
     refuseLaw(cloth.springs.bend_shear[i], cloth.mesh.opposite(s, 0), cloth.mesh.opposite(s, 1),
-              name + "/springs/bend_shear " + std::to_string(i));
+              bend_shear, i);
   }
 }
 
@@ -109,16 +125,16 @@ void refuseDamage(const Cloth& cloth, const std::string& name)
   const int particles = cloth.mesh.particleCount();
   for (int i = 0; i < particles; ++i)
   {
-    const std::string at = name + "/damage of particle " + std::to_string(i);
-    refuseUnless((cloth.damage.hinge[i] != 0) == (cloth.mesh.fanCount({ i }) > 1),
-                 at + ": hinge contradicts the mesh");
+    refuseUnless((cloth.damage.hinge[i] != 0) == (cloth.mesh.fanCount({ i }) > 1), name,
+                 "/damage/hinge ", i, " contradicts the mesh");
     for (int parent : cloth.damage.parents[i])
     {
-      refuseUnless(parent >= 0 && parent < particles, at + ": no such parent");
+      refuseUnless(parent >= 0 && parent < particles, name, "/damage/parents ", i,
+                   " names particle ", parent, ", which does not exist");
     }
   }
   refuseSmall(cloth.damage.strength, true, name + "/damage/strength");
-  refuseUnless(cloth.damage.least_strength > 0.0, name + "/damage/least_strength is not above 0");
+  refuseUnless(cloth.damage.least_strength > 0.0, name, "/damage/least_strength is not above 0");
   std::vector<std::string> found;
   const int most = cloth.mesh.triangleCount();
   check(found, name + "/damage/pieces", cloth.damage.pieces, Range::between(1, most));
@@ -154,9 +170,12 @@ std::vector<std::string> problems(const Grasp& grasp, const std::string& name)
 
 void refuseUnsound(const Cloth& cloth, const std::string& name)
 {
-  refuseUnless(cloth.mesh.triangleCount() > 0, name + "/mesh is empty");
+  refuseUnless(cloth.mesh.triangleCount() > 0, name, "/mesh is empty");
   const std::vector<std::string> found = defects(cloth.mesh);
-  refuseUnless(found.empty(), found.empty() ? "" : name + "/mesh: " + found.front());
+  if (!found.empty())
+  {
+    throw Refusal(name + "/mesh: " + found.front());
+  }
   refuseSizes(cloth, name);
   refuseRestShape(cloth, name);
   refuseLaws(cloth, name);
@@ -170,7 +189,7 @@ void refuseUnsound(const Cloth& cloth, const std::vector<Grasp>& grasps)
   for (const Grasp& grasp : grasps)
   {
     const std::string name = "grasp " + std::to_string(grasp.id);
-    refuseUnless(grasp.id > before, name + " follows grasp " + std::to_string(before));
+    refuseUnless(grasp.id > before, name, " comes after grasp ", before);
     before = grasp.id;
     refuseIf(problems(grasp, name));
     for (const Grasp::Held& held : grasp.held)
@@ -179,16 +198,16 @@ void refuseUnsound(const Cloth& cloth, const std::vector<Grasp>& grasps)
       refuseUnless(p >= 0 && p < cloth.mesh.particleCount() &&
                        cloth.attachments[p].kind == Attachment::Kind::GRASP &&
                        cloth.attachments[p].grasp == grasp.id,
-                   name + " holds particle " + std::to_string(p) + ", which says otherwise");
-      refuseUnless(held_by_grasps.insert(held.particle).second,
-                   name + " holds particle " + std::to_string(p) + " twice");
+                   name, " holds particle ", p, ", which says otherwise");
+      refuseUnless(held_by_grasps.insert(held.particle).second, name, " holds particle ", p,
+                   " twice");
     }
   }
   for (int i = 0; i < cloth.mesh.particleCount(); ++i)
   {
     refuseUnless(cloth.attachments[i].kind != Attachment::Kind::GRASP ||
                      held_by_grasps.count(ParticleId{ i }) > 0,
-                 "particle " + std::to_string(i) + " is held by no grasp, and says otherwise");
+                 "particle ", i, " is held by no grasp, and says otherwise");
   }
 }
 
@@ -198,7 +217,7 @@ void refuseUnsound(const std::vector<Sphere>& spheres)
   for (const Sphere& sphere : spheres)
   {
     const std::string name = "sphere " + std::to_string(sphere.id);
-    refuseUnless(ids.insert({ sphere.source, sphere.id }).second, name + " is there twice");
+    refuseUnless(ids.insert({ sphere.source, sphere.id }).second, name, " is there twice");
     std::vector<std::string> found;
     check(found, name + " radius [m]", sphere.radius, Range::above(0.0));
     check(found, name + " mass [kg]", sphere.mass, Range::atLeast(0.0));

@@ -106,6 +106,10 @@ public:
   /// Resets the simulation; a step() under way is cut short.
   void reset();
 
+  /// Goes on in a saved state; a step() under way is cut short. Answers as step(0).
+  /// @throws Refusal as Simulation::restored(); nothing has changed then
+  StepAnswer restore(const std::string& state);
+
   LoopState state() const;
 
 private:
@@ -123,6 +127,7 @@ private:
   void oneStep();
   void keepPace(Clock::time_point& due);
   void followClock();
+  void tell(StepAnswer& answer) const;
   void answerRequest(const std::string& cut_short);
   void cutRequests(const std::string& why);
   void measure();
