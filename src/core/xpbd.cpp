@@ -8,6 +8,21 @@ namespace cloth
 namespace
 {
 
+/// Adds a pull to those ends of a spring that do not move. Not inlined: few springs have any, and
+/// the sweep is to stay lean.
+[[gnu::noinline]] void noteHeld(const SpringLaw& spring, const ParticleState& state,
+                                const Vec3& pull, std::vector<Vec3>& held)
+{
+  if (state.inverse_mass[spring.a] == 0)
+  {
+    held[spring.a] += pull;
+  }
+  if (state.inverse_mass[spring.b] == 0)
+  {
+    held[spring.b] -= pull;
+  }
+}
+
 /// Moves `displacement`, the way of each particle since the start of the step. Lengths and speeds
 /// come from ways, not from differences of places: these are too coarse for a short step.
 /// @param see told of each spring's index and its squared length, when the step began or when its
@@ -45,13 +60,9 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     const Real lambda = (stiffness * (length - spring.rest) + damping * (d.dot(moved) / length)) /
                         ((stiffness + damping) * w + Real(1));
     const Real pull = lambda / length;
-    if (wa == 0)
+    if (!(wa > 0 && wb > 0))
     {
-      held[spring.a] += pull * d;
-    }
-    if (wb == 0)
-    {
-      held[spring.b] -= pull * d;
+      noteHeld(spring, state, pull * d, held);
     }
     a += (wa * pull) * d;
     b -= (wb * pull) * d;
