@@ -2,6 +2,7 @@
 #include <cloth_tearing/Grasp.h>
 #include <cloth_tearing/SimulationStatus.h>
 #include <cloth_tearing/Step.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_srvs/Trigger.h>
 
@@ -95,6 +96,22 @@ TEST(NodeWithoutClock, AnswersAllTheSame)
   EXPECT_TRUE(ask<Trigger>("/follower/resume").success);
   EXPECT_EQ(step("/stepped", 5).step, 5u);
   EXPECT_TRUE(ask<Trigger>("/stepped/reset").success);
+}
+
+TEST(NodeWithoutClock, SaysOnDiagnosticsThatItWaits)
+{
+  using diagnostic_msgs::DiagnosticArray;
+  ASSERT_TRUE(ros::Time::now().isZero());
+  Collector<DiagnosticArray> diagnostics("/diagnostics");
+
+  const auto words = diagnostics.waitFor(
+      "the follower's", [](const DiagnosticArray& array)
+      { return array.status.at(0).name == "follower: solver" && array.status.size() == 2; });
+
+  EXPECT_EQ(words.status.at(0).message, "waits for a clock to follow");
+  EXPECT_EQ(words.status.at(0).level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(words.status.at(1).name, "follower: topology");
+  EXPECT_EQ(words.status.at(1).message, "whole");
 }
 
 TEST(NodeWithClock, FollowsItStepByStep)

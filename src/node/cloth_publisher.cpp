@@ -27,6 +27,7 @@ ClothPublisher::ClothPublisher(ros::NodeHandle node, const NodeParams& params,
     : placement_(placement)
     , time_step_(params.simulation.solver.time_step)
     , painter_(params.markers, placement)
+    , diagnostics_(node)
     , grasps_(node, placement)
 {
   open<visualization_msgs::MarkerArray>(node, "markers", params.marker_rate, markers_);
@@ -188,6 +189,10 @@ void ClothPublisher::run()
       {
         publishStatus();
       }
+      if (diagnostics_.isDue())
+      {
+        diagnostics_.publish(statusSource());
+      }
       if (takeTurn(grasp_states_, grasps_wanted, false, now))
       {
         publishGrasps();
@@ -214,6 +219,10 @@ ClothPublisher::Clock::time_point ClothPublisher::nextTurn() const
     {
       next = std::min(next, channel->due);
     }
+  }
+  if (diagnostics_.heard())
+  {
+    next = std::min(next, diagnostics_.due());
   }
   return next;
 }
@@ -269,7 +278,7 @@ void ClothPublisher::publishSnapshot(bool markers, bool surface)
   }
 }
 
-void ClothPublisher::publishStatus()
+StatusSource ClothPublisher::statusSource()
 {
   StatusSource source;
   source.time_step = time_step_;
@@ -288,7 +297,12 @@ void ClothPublisher::publishStatus()
     source.refusals = refusals_;
     source.last_refusal = last_refusal_;
   }
-  const auto message = boost::make_shared<SimulationStatus>(toMessage(source, placement_));
+  return source;
+}
+
+void ClothPublisher::publishStatus()
+{
+  const auto message = boost::make_shared<SimulationStatus>(toMessage(statusSource(), placement_));
   message->header.stamp = ros::Time::now();
   status_.topic.publish(message);
 }

@@ -16,6 +16,7 @@
 #include "cloth_tearing/core/simulation_loop.h"
 #include "cloth_tearing/node/cloth_markers.h"
 #include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/diagnostics.h"
 #include "cloth_tearing/node/grasp_publisher.h"
 #include "cloth_tearing/node/node_params.h"
 
@@ -104,6 +105,7 @@ private:
   bool heard(const Channel& channel) const;
   bool takeTurn(Channel& channel, bool wanted, bool unchanged_too, Clock::time_point now) const;
   void publishSnapshot(bool markers, bool surface);
+  StatusSource statusSource();
   void publishStatus();
   void publishGrasps();
   void publishTears(const std::vector<cloth::TearEvent>& tears) const;
@@ -117,6 +119,7 @@ private:
   Channel status_;
   Channel grasp_states_;
   ros::Publisher tear_events_;
+  Diagnostics diagnostics_;  ///< of the publishing thread
   GraspPublisher grasps_;
 
   std::atomic<std::uint64_t> version_{ 1 };  ///< +1 by every step and command
