@@ -490,10 +490,10 @@ TEST_F(ClothNode, SaysWhyItRefusesAndChangesNothing)
   expectRefusal<Grasp>("/cloth/grasp", graspAt(0.2, 0.0, BOTTOM), "held by grasp");
   grasp = graspAt(0.0, 0.0, BOTTOM);
   grasp.gripper_frame = "hand";
-  expectRefusal<Grasp>("/cloth/grasp", grasp, "gripper_frame is not served yet");
+  expectRefusal<Grasp>("/cloth/grasp", grasp, "gripper_frame: no transform from hand to world");
   grasp = graspAt(0.0, 0.0, BOTTOM);
-  grasp.force_limit = 10.0;
-  expectRefusal<Grasp>("/cloth/grasp", grasp, "force_limit is not served yet");
+  grasp.force_limit = -10.0;
+  expectRefusal<Grasp>("/cloth/grasp", grasp, "force_limit [N] is -10");
   grasp = graspAt(0.0, 0.0, BOTTOM);
   grasp.header.frame_id = "";
   expectRefusal<Grasp>("/cloth/grasp", grasp, "header.frame_id is empty");

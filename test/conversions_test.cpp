@@ -306,9 +306,9 @@ TEST(Requests, NameEachFieldThatIsWrong)
   grasp("point.x is nan", [&](auto& r) { r.point.x = nan; });
   grasp("point.z is inf", [&](auto& r) { r.point.z = infinity; });
   grasp("radius [m] is nan", [&](auto& r) { r.radius = nan; });
-  grasp("gripper_frame is not served yet", [&](auto& r) { r.gripper_frame = "hand"; });
-  grasp("force_limit is not served yet", [&](auto& r) { r.force_limit = 3.0; });
-  grasp("force_limit is not served yet", [&](auto& r) { r.force_limit = nan; });
+  grasp("gripper_frame is \"/hand\", must not begin with a slash",
+        [&](auto& r) { r.gripper_frame = "/hand"; });
+  grasp("force_limit [N] is nan", [&](auto& r) { r.force_limit = nan; });
   const auto drag = [&cases](const std::string& expected, auto change)
   {
     Drag::Request request = dragRequest();
@@ -338,7 +338,14 @@ TEST(Requests, NameEachFieldThatIsWrong)
   sphere("spheres[0].velocity.y is inf", [&](auto& s) { s.velocity.y = infinity; });
   sphere("spheres[0].radius [m] is nan", [&](auto& s) { s.radius = nan; });
   sphere("spheres[0].mass [kg] is nan", [&](auto& s) { s.mass = nan; });
-  sphere("spheres[0].frame is not served yet", [&](auto& s) { s.frame = "hand"; });
+  sphere("spheres[0].frame is \"/hand\", must not begin with a slash",
+         [&](auto& s) { s.frame = "/hand"; });
+  sphere("spheres[0].velocity must be 0",
+         [&](auto& s)
+         {
+           s.frame = "hand";
+           s.velocity.x = 1.0;
+         });
 
   for (const auto& c : cases)
   {

@@ -68,6 +68,8 @@ public:
     return waitFor("any", [](const Message&) { return true; });
   }
 
+  std::uint32_t publishers() const { return subscriber_.getNumPublishers(); }
+
   std::vector<Message> all()
   {
     const std::lock_guard<std::mutex> lock(mutex_);

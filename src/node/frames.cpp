@@ -51,6 +51,7 @@ cloth::Pose Frames::toCloth(const std::string& frame, const ros::Time& stamp,
       throw cloth::Refusal(field + ": no transform from " + frame + " to " + placement_.frame_id +
                            ": " + why);
     }
+    why.clear();  // tf2 appends to it
     std::this_thread::sleep_for(LOOK_AGAIN);
   }
   try

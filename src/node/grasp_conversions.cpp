@@ -19,6 +19,7 @@ const Range FINITE;
 constexpr std::size_t MOST_TARGETS = 1000;     // in one message
 constexpr std::size_t MOST_PINNED = 100000;    // ids in one request
 constexpr std::size_t MOST_TOLD_TEARS = 1000;  // in the result of a pull
+constexpr double MOST_FORCE = 1e6;             // to stop at [N]
 constexpr std::uint32_t MOST_STOP_TEARS = 1000000;
 
 std::uint8_t toMessage(cloth::GraspEventKind kind)
@@ -243,7 +244,7 @@ std::vector<std::string> problems(const PullGoal& goal)
   checkWay(found, goal);
   check(found, "linear_speed [m/s]", goal.linear_speed, FINITE);
   check(found, "angular_speed [rad/s]", goal.angular_speed, FINITE);
-  check(found, "stop_force [N]", goal.stop_force, FINITE);
+  check(found, "stop_force [N]", goal.stop_force, Range::between(0.0, MOST_FORCE));
   if (goal.stop_tears > MOST_STOP_TEARS)
   {
     found.push_back("stop_tears is " + std::to_string(goal.stop_tears) + ", must be at most " +
