@@ -34,13 +34,24 @@ TEST_P(Trousers, TearOnAlongTheCut)
 
   const TrouserOutcome outcome = pullLegs(simulation);
 
-  EXPECT_GT(outcome.advance, 2.0);
-  EXPECT_LT(outcome.angle, 30.0);  // the diagonals of the grid lie at 37
-  EXPECT_LT(outcome.straying, 1.0);
+  EXPECT_TRUE(outcome.runsOn()) << outcome.advance << " m on, at " << outcome.angle
+                                << " degrees, straying " << outcome.straying;
   EXPECT_EQ(outcome.pieces, 1) << "a tear that runs on leaves the legs on the sheet";
-  EXPECT_GT(outcome.mean_force, 0.1);
+  EXPECT_GT(outcome.mean_force, 1.0) << "measured: 1.1 to 2.4 N";
   EXPECT_GT(outcome.peak_force, outcome.mean_force);
   EXPECT_TRUE(isSound(simulation.cloth().mesh));
+}
+
+TEST(TrouserOutcome, DoesNotRunOnWhereATearFollowsTheDiagonals)
+{
+  TrouserOutcome outcome;
+  outcome.advance = 3.1;
+  outcome.angle = 10.0;
+  outcome.straying = 0.5;
+  ASSERT_TRUE(outcome.runsOn());
+
+  outcome.angle = 37.0;
+  EXPECT_FALSE(outcome.runsOn());
 }
 
 /// Lets cloth that hangs from one grasp come to rest.

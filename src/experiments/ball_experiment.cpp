@@ -68,13 +68,64 @@ std::uint64_t start(Simulation& simulation, const BallThrow& thrown, double hang
   return simulation.throwSphere(request);
 }
 
-/// The ball that is nearest to a tear; the last one thrown if they are all gone.
-std::size_t ballOf(const TearEvent& tear, const std::vector<std::uint64_t>& ids)
+/// Keeps for each ball what it does to the cloth.
+class BallWatch
 {
-  const auto found = std::find(ids.begin(), ids.end(), tear.cause.id);
-  const bool by_ball = tear.cause.kind == CauseKind::THROWN_SPHERE && found != ids.end();
-  return by_ball ? found - ids.begin() : ids.size() - 1;
-}
+public:
+  explicit BallWatch(std::size_t balls) : outcomes_(balls) {}
+
+  std::size_t thrown() const { return ids_.size(); }
+  void add(std::uint64_t id) { ids_.push_back(id); }
+
+  void count(const StepReport& report)
+  {
+    peak_strain_ = std::max(peak_strain_, report.max_strain);
+    for (const TearEvent& tear : report.tears)
+    {
+      ++outcomes_[ballOf(tear)].tears[static_cast<int>(tear.kind)];
+    }
+  }
+
+  void look(const Simulation& simulation)
+  {
+    const double margin = 2.0 * simulation.params().contact.thickness;
+    for (const Sphere& ball : simulation.spheres())
+    {
+      bool& slid = outcomes_[indexOf(ball.id)].slid;
+      slid = slid || slides(simulation.cloth(), ball, margin);
+    }
+  }
+
+  std::vector<BallOutcome> outcomes(const Cloth& cloth) const
+  {
+    std::vector<BallOutcome> outcomes = outcomes_;
+    for (BallOutcome& outcome : outcomes)
+    {
+      outcome.peak_strain = peak_strain_;
+      outcome.torn_length = tornLength(cloth);
+      outcome.pieces = cloth.damage.pieces;
+    }
+    return outcomes;
+  }
+
+private:
+  std::size_t indexOf(std::uint64_t id) const
+  {
+    return std::find(ids_.begin(), ids_.end(), id) - ids_.begin();
+  }
+
+  /// The ball that is nearest to a tear; the last one thrown if they are all gone.
+  std::size_t ballOf(const TearEvent& tear) const
+  {
+    const std::size_t index = indexOf(tear.cause.id);
+    const bool by_ball = tear.cause.kind == CauseKind::THROWN_SPHERE && index < ids_.size();
+    return by_ball ? index : ids_.size() - 1;
+  }
+
+  std::vector<BallOutcome> outcomes_;
+  std::vector<std::uint64_t> ids_;  ///< of the balls thrown so far
+  double peak_strain_ = 0.0;
+};
 
 }  // namespace
 
@@ -92,46 +143,37 @@ const std::array<BallThrow, 3> THREE_BALLS = { {
     { "figure 4.1, right", 0.5, 3.0, 0.66, true, 1.5 },
 } };
 
+const char* BallOutcome::inWords() const
+{
+  return toreThrough() ? "torn through" : total() == 0 ? "not torn" : "torn, not through";
+}
+
 std::vector<BallOutcome> throwBalls(Simulation& simulation, const std::vector<BallThrow>& throws,
                                     double interval, const Watch& watch)
 {
-  const SimulationParams& params = simulation.params();
+  const double dt = simulation.params().solver.time_step;
   const double hanging_height = hangingHeight(simulation);
-  const auto stepsIn = [&](double time) { return std::lround(time / params.solver.time_step); };
+  const auto stepsIn = [&](double time) { return std::lround(time / dt); };
   const long steps = stepsIn((throws.size() - 1) * interval + lifetime(throws.back()));
-  std::vector<BallOutcome> outcomes(throws.size());
-  std::vector<std::uint64_t> ids;  // of the balls thrown so far
-  double peak_strain = 0.0;
+  BallWatch balls(throws.size());
   for (long i = 0; i < steps; ++i)
   {
-    if (ids.size() < throws.size() && i == stepsIn(ids.size() * interval))
+    if (balls.thrown() < throws.size() && i == stepsIn(balls.thrown() * interval))
     {
-      ids.push_back(start(simulation, throws[ids.size()], hanging_height));
+      balls.add(start(simulation, throws[balls.thrown()], hanging_height));
     }
     const StepReport report = stepOrThrow(simulation);
-    peak_strain = std::max(peak_strain, report.max_strain);
-    for (const TearEvent& tear : report.tears)
+    balls.count(report);
+    if (i % SAMPLE == 0)
     {
-      ++outcomes[ballOf(tear, ids)].tears[static_cast<int>(tear.kind)];
-    }
-    for (const Sphere& ball : simulation.spheres())
-    {
-      BallOutcome& outcome = outcomes[std::find(ids.begin(), ids.end(), ball.id) - ids.begin()];
-      outcome.slid = outcome.slid || (i % SAMPLE == 0 && slides(simulation.cloth(), ball,
-                                                                2.0 * params.contact.thickness));
+      balls.look(simulation);
     }
     if (watch)
     {
       watch(simulation, report);
     }
   }
-  for (BallOutcome& outcome : outcomes)
-  {
-    outcome.peak_strain = peak_strain;
-    outcome.torn_length = tornLength(simulation.cloth());
-    outcome.pieces = simulation.cloth().damage.pieces;
-  }
-  return outcomes;
+  return balls.outcomes(simulation.cloth());
 }
 
 BallOutcome throwBall(Simulation& simulation, const BallThrow& thrown, const Watch& watch)

@@ -129,7 +129,7 @@ void addTrouser(std::vector<Play>& plays)
   play.run = [](const Setting& setting, const Watch& watch)
   {
     Simulation simulation = trousers(setting);
-    pullLegs(simulation, watch);
+    pullLegs(simulation, Vec2d::Zero(), watch);
   };
   plays.push_back(play);
 }

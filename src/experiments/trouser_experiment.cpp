@@ -15,6 +15,8 @@ namespace
 const Vec2d SHEET = thesisSheetSize();   ///< [m]
 constexpr double CUT = 4.0;              ///< its length [m]
 constexpr double FAR = 3.0;              ///< the tear is long enough [m]
+constexpr double MOST_ANGLE = 20.0;      ///< of a tear that runs on, end to end [degrees]
+constexpr double MOST_STRAYING = 1.0;    ///< and its distance from the line of the cut [m]
 constexpr double RADIUS = 0.75;          ///< of the discs that are held [m]
 constexpr double SPEED = 0.5;            ///< of each gripper [m/s]
 const Vec3d LEG(1.5, 0.0, -7.25);        ///< where the right one is held [m]
@@ -27,10 +29,10 @@ struct Leg
   Vec3d pull;  ///< unit
 };
 
-Leg holdLeg(Simulation& simulation, double side)
+Leg holdLeg(Simulation& simulation, double side, const Vec2d& shift)
 {
   GraspRequest hold;
-  hold.point = Vec3d(side * LEG.x(), LEG.y(), LEG.z());
+  hold.point = Vec3d(side * LEG.x() + shift.x(), LEG.y(), LEG.z() + shift.y());
   hold.frame.position = hold.point;
   hold.radius = RADIUS;
   const Vec3d way(WAY.x(), side * WAY.y(), WAY.z());
@@ -140,6 +142,11 @@ Vec3d forceOnGrasp(const Simulation& simulation, std::uint64_t grasp)
   return force;
 }
 
+bool TrouserOutcome::runsOn() const
+{
+  return advance >= FAR && angle <= MOST_ANGLE && straying <= MOST_STRAYING;
+}
+
 Simulation trousers(const Setting& setting)
 {
   RectangleParams sheet = thesisSheet(setting);
@@ -149,9 +156,10 @@ Simulation trousers(const Setting& setting)
   return hungSheet(sheet, params);
 }
 
-TrouserOutcome pullLegs(Simulation& simulation, const Watch& watch)
+TrouserOutcome pullLegs(Simulation& simulation, const Vec2d& shift, const Watch& watch)
 {
-  const std::array<Leg, 2> legs = { holdLeg(simulation, 1.0), holdLeg(simulation, -1.0) };
+  const std::array<Leg, 2> legs = { holdLeg(simulation, 1.0, shift),
+                                    holdLeg(simulation, -1.0, shift) };
   const Vec2d start = endOfCut(simulation.cloth());
   TrouserOutcome outcome;
   outcome.edge_length = meanEdge(simulation.cloth());

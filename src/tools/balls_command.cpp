@@ -23,13 +23,10 @@ struct Run
 void print(const Setting& setting, const Run& run)
 {
   const BallOutcome& outcome = run.outcome;
-  const char* const what = outcome.toreThrough()  ? "torn through"
-                           : outcome.total() == 0 ? "not torn"
-                                                  : "torn, not through";
   std::printf(
       "%-18s %5.2f ms  %-18s %-18s basic %3d  weak %3d  one %3d  released %d  pieces %d  %s\n",
-      clothName(setting).c_str(), 1e3 * setting.time_step, run.thrown.name, what, outcome.tears[0],
-      outcome.tears[1], outcome.tears[2], outcome.tears[3], outcome.pieces,
+      clothName(setting).c_str(), 1e3 * setting.time_step, run.thrown.name, outcome.inWords(),
+      outcome.tears[0], outcome.tears[1], outcome.tears[2], outcome.tears[3], outcome.pieces,
       run.agrees ? "ok" : "NOT AS IN THE THESIS");
   std::fflush(stdout);
 }

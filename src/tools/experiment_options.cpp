@@ -10,6 +10,9 @@ namespace cloth
 namespace
 {
 
+constexpr double LEAST_TIME_STEP = 1e-5;  ///< [s]
+constexpr double MOST_TIME_STEP = 0.1;    ///< [s]
+
 double number(const std::string& option, const std::string& text)
 {
   char* end = nullptr;
@@ -62,6 +65,30 @@ SolverKind solverKind(const std::string& name)
   throw UsageError("--solver is \"" + name + "\", must be xpbd or force_springs");
 }
 
+double within(const std::string& option, const std::string& text, double low, double high)
+{
+  const double value = number(option, text);
+  if (!(value >= low && value <= high))
+  {
+    throw UsageError(option + " is " + text + ", must be a number from " + cloth::text(low) +
+                     " to " + cloth::text(high));
+  }
+  return value;
+}
+
+RectanglePattern mesh(const std::string& name)
+{
+  for (const RectanglePattern mesh : ALL_MESHES)
+  {
+    if (name == nameOf(mesh))
+    {
+      return mesh;
+    }
+  }
+  throw UsageError("--mesh is \"" + name +
+                   "\", must be one_diagonal, alternating, irregular or all");
+}
+
 void apply(Options& options, const std::string& option, const std::string& value)
 {
   if (option == "--resolution")
@@ -77,7 +104,7 @@ void apply(Options& options, const std::string& option, const std::string& value
     options.meshes = value == "all" ? ALL_MESHES : std::vector<RectanglePattern>{};
     for (const std::string& part : value == "all" ? std::vector<std::string>{} : parts(value))
     {
-      options.meshes.push_back(rectanglePattern(part));
+      options.meshes.push_back(mesh(part));
     }
   }
   else if (option == "--seed")
@@ -93,12 +120,12 @@ void apply(Options& options, const std::string& option, const std::string& value
     options.time_steps.clear();
     for (const std::string& part : parts(value))
     {
-      options.time_steps.push_back(number(option, part));
+      options.time_steps.push_back(within(option, part, LEAST_TIME_STEP, MOST_TIME_STEP));
     }
   }
   else if (option == "--grading")
   {
-    options.grading = number(option, value);
+    options.grading = within(option, value, 0.2, 5.0);
   }
   else if (option == "--solver")
   {
@@ -156,7 +183,7 @@ std::vector<Setting> Options::settings(const std::vector<int>& default_resolutio
 {
   std::vector<Setting> settings;
   Setting setting;
-  setting.grading = grading;
+  setting.grading = grading.value_or(1.0);
   setting.solver = solver;
   for (const int resolution : resolutions.empty() ? default_resolutions : resolutions)
   {

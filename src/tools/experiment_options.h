@@ -1,6 +1,7 @@
 // What the command line of thesis_experiments asks for.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ struct Options
   std::vector<RectanglePattern> meshes;
   std::vector<int> seeds;
   std::vector<double> time_steps;  ///< [s]
-  double grading = 1.0;
+  std::optional<double> grading;   ///< else 1, or what the experiment is about
   SolverKind solver = SolverKind::XPBD;
   std::string output;  ///< folder; empty = none
 
@@ -33,7 +34,7 @@ struct Options
                                 const std::vector<int>& default_seeds) const;
 };
 
-/// @throws UsageError or std::invalid_argument, naming option, value and limit
+/// @throws UsageError naming option, value and limit
 Options parseOptions(const std::vector<std::string>& arguments);
 
 const char* nameOf(RectanglePattern pattern);

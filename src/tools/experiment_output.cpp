@@ -1,13 +1,21 @@
 // Writes tables and snapshots.
 #include "experiment_output.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <system_error>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/obj_writer.h"
 
 namespace cloth
 {
+
+double median(std::vector<double> values)
+{
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
 
 Row settingColumns(const Setting& setting)
 {
@@ -22,8 +30,14 @@ Output::Output(const std::string& folder, const std::string& table) : folder_(fo
 {
   if (!folder_.empty())
   {
-    std::filesystem::create_directories(folder_);
+    std::error_code failure;
+    std::filesystem::create_directories(folder_, failure);
     table_.open(folder_ / table);
+    if (failure || !table_)
+    {
+      throw UsageError("--output is " + folder + ", must be a folder that can be written to" +
+                       (failure ? ": " + failure.message() : ""));
+    }
   }
 }
 

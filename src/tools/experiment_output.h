@@ -15,6 +15,9 @@ namespace cloth
 /// One run's row: names of columns with what stands in them.
 using Row = std::vector<std::pair<std::string, std::string>>;
 
+/// @param values one at least
+double median(std::vector<double> values);
+
 /// The columns that say which cloth a run was made with.
 Row settingColumns(const Setting& setting);
 
@@ -23,6 +26,7 @@ class Output
 {
 public:
   /// @param table name of the CSV file; an old one is replaced
+  /// @throws UsageError if `folder` cannot be made or written to
   Output(const std::string& folder, const std::string& table);
 
   /// Adds a run; the first row's names become the heading.

@@ -37,12 +37,6 @@ void play(const Simulation& hung, Run& run)
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-double median(std::vector<double> values)
-{
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 /// Half the particles, with the uniform sheet's spacing in the middle.
 Setting coarsened(const Setting& uniform, double grading)
 {
@@ -89,7 +83,7 @@ bool nonuniform(const Options& options)
 {
   Output output(options.output, "nonuniform.csv");
   bool all = true;
-  const double grading = options.grading == 1.0 ? 2.0 : options.grading;
+  const double grading = options.grading.value_or(2.0);
   Options uniform = options;
   uniform.grading = 1.0;
   for (const Setting& setting : uniform.settings({ 40 }, ALL_MESHES, { 1 }))

@@ -27,34 +27,33 @@ struct Profiled
 };
 
 template <class Value>
-double median(const Profiled& profiled, const Value& value)
+double medianOf(const Profiled& profiled, const Value& value)
 {
   std::vector<double> values;
   for (const ProfileOutcome& run : profiled.runs)
   {
     values.push_back(value(run));
   }
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  return median(values);
 }
 
 /// Median share of update [%].
 double share(const Profiled& profiled, int phase)
 {
-  return median(profiled, [phase](const ProfileOutcome& run)
-                { return 100.0 * run.time[phase] / run.update(); });
+  return medianOf(profiled, [phase](const ProfileOutcome& run)
+                  { return 100.0 * run.time[phase] / run.update(); });
 }
 
 double tearingShare(const Profiled& profiled)
 {
-  return median(profiled, [](const ProfileOutcome& run)
-                { return 100.0 * (run.detecting() + run.editing()); });
+  return medianOf(profiled, [](const ProfileOutcome& run)
+                  { return 100.0 * (run.detecting() + run.editing()); });
 }
 
 double perTear(const Profiled& profiled)
 {
-  return median(profiled, [](const ProfileOutcome& run)
-                { return 1e6 * run.editing() * run.update() / std::max(1, run.tears()); });
+  return medianOf(profiled, [](const ProfileOutcome& run)
+                  { return 1e6 * run.editing() * run.update() / std::max(1, run.tears()); });
 }
 
 void printCounts(const char* when, const Summary& summary)
@@ -79,19 +78,15 @@ void print(const Profiled& profiled, const std::string& name)
       "seconds\n",
       run.tears(), static_cast<int>(tears[0]), static_cast<int>(tears[1]),
       static_cast<int>(tears[2]), static_cast<int>(tears[3]), run.torn_time, PROFILE_TIME);
-  const double update = median(profiled, [](const ProfileOutcome& r) { return r.update(); });
+  const double update = medianOf(profiled, [](const ProfileOutcome& r) { return r.update(); });
   std::printf("  update, median of %d runs: %.2f s, %.1f us a step:", RUNS, update,
               1e6 * update * profiled.setting.time_step / PROFILE_TIME);
   for (int i = 0; i < STEP_PHASES; ++i)
   {
     std::printf("  %s %.2f %%", PHASES[i], share(profiled, i));
   }
-  std::printf(
-      "\n  detecting and editing together: %.2f %% of update (thesis: 2), %s; %.1f us a "
-      "tear\n",
-      tearingShare(profiled),
-      tearingShare(profiled) <= TIME_PER_CENT ? "ok" : "MORE THAN IN THE THESIS",
-      perTear(profiled));
+  std::printf("\n  detecting and editing together: %.2f %% of update (thesis: 2); %.1f us a tear\n",
+              tearingShare(profiled), perTear(profiled));
 }
 
 Row columns(const Profiled& profiled)
@@ -120,7 +115,7 @@ Row columns(const Profiled& profiled)
   return row;
 }
 
-/// Whether counts and tears are those of 4.3, and the runs alike; only 30 x 30 is held to it.
+/// Whether counts, tears and time are those of 4.3, and the runs alike; only 30 x 30 is held to it.
 bool holds(const Profiled& profiled)
 {
   const ProfileOutcome& first = profiled.runs.front();
@@ -128,13 +123,17 @@ bool holds(const Profiled& profiled)
                                  [&](const ProfileOutcome& run)
                                  { return run.after.state_hash == first.after.state_hash; });
   const bool judged = profiled.setting.resolution == 30;
+  const bool quick = tearingShare(profiled) <= TIME_PER_CENT;
   const bool thesis = first.hasThesisCounts() && first.hasThesisTears();
-  std::printf("  counts and tears: %s%s\n",
+  std::printf("  counts and tears: %s; time: %s%s\n",
               !judged  ? "not judged, 4.3 has 30 x 30"
               : thesis ? "as in the thesis"
                        : "NOT AS IN THE THESIS",
+              !judged ? "not judged"
+              : quick ? "no more than in the thesis"
+                      : "MORE THAN IN THE THESIS",
               alike ? "" : "; THE RUNS DIFFER");
-  return alike && (thesis || !judged);
+  return alike && ((thesis && quick) || !judged);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ const char* const OPTIONS = R"(
 options; LIST is one value or several with commas between, and every combination is run:
   --resolution LIST  particles along either side of the cloth, 4 to 500
   --mesh LIST        one_diagonal, alternating, irregular, or all
-  --seed LIST        of irregular meshes
-  --grading G        spacing at the border over spacing in the middle, 0.2 to 5 (default 1)
+  --seed LIST        of irregular meshes; direction and trouser: also of where cloth is held
+  --grading G        spacing at the border over spacing in the middle, 0.2 to 5 (default 1; nonuniform: 2)
   --solver NAME      xpbd (default) or force_springs
-  --time-step LIST   [s] (default 0.001)
+  --time-step LIST   [s], 0.00001 to 0.1 (default 0.001)
   --output DIR       one CSV row per run in DIR/EXPERIMENT.csv, cloths as OBJ files
   --help             this text
 )";

@@ -63,10 +63,9 @@ std::string flips(const Setting& setting, const SimulationParams& params, const 
     Simulation simulation = hung;
     const BallOutcome outcome = throwBall(simulation, THESIS_THROWS[i]);
     const bool agrees = outcome.agrees(THESIS_THROWS[i]);
-    const char* const how = outcome.toreThrough() ? " torn"
-                            : outcome.total() > 0 ? " partly"
-                                                  : " not";
-    flipped += agrees ? "" : (flipped.empty() ? "" : ", ") + std::to_string(i + 1) + how;
+    flipped +=
+        agrees ? ""
+               : (flipped.empty() ? "" : "; ") + std::to_string(i + 1) + " " + outcome.inWords();
     Row row = run;
     row.insert(row.end(), { { "experiment", std::to_string(i + 1) },
                             { "tears", std::to_string(outcome.total()) },

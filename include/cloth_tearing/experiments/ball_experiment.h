@@ -44,6 +44,9 @@ struct BallOutcome
   /// At least three tears, and the ball went through.
   bool toreThrough() const { return total() >= 3 && !slid; }
 
+  /// "torn through", "torn, not through" or "not torn".
+  const char* inWords() const;
+
   /// Whether this is what the thesis saw: torn through, or not a single tear.
   bool agrees(const BallThrow& thrown) const { return thrown.tears ? toreThrough() : total() == 0; }
 };
