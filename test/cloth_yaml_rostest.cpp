@@ -74,6 +74,9 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_EQ(shipped.clock_rate, compiled.clock_rate);
   EXPECT_EQ(shipped.tf_patience, compiled.tf_patience);
   EXPECT_EQ(shipped.command_patience, compiled.command_patience);
+  EXPECT_EQ(shipped.states.folder, compiled.states.folder);
+  EXPECT_EQ(shipped.states.max_states, compiled.states.max_states);
+  EXPECT_EQ(shipped.states.max_state_memory, compiled.states.max_state_memory);
   EXPECT_EQ(shipped.frame_timeout, compiled.frame_timeout);
   EXPECT_EQ(shipped.lost_frame, compiled.lost_frame);
   EXPECT_EQ(shipped.grasp_state_rate, compiled.grasp_state_rate);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <random>
 
 namespace cloth_tearing
 {
@@ -52,6 +53,13 @@ cloth::SimulationLoop::Options loopOptions(const NodeParams& params, FrameFollow
   return options;
 }
 
+/// A number that no other run of a node has: saved states tell by it whose tears they bring.
+std::uint64_t newLife()
+{
+  std::random_device source;
+  return static_cast<std::uint64_t>(source()) << 32 | source();
+}
+
 std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params)
 {
   const PlacedModel placed = placedModel(params);
@@ -59,8 +67,10 @@ std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params)
   {
     ROS_WARN_STREAM(params.model_file << ": " << finding);
   }
+  cloth::SimulationParams simulation_params = inClothFrame(params);
+  simulation_params.life = newLife();
   auto simulation =
-      std::make_unique<cloth::Simulation>(placed.model, placed.pinned, inClothFrame(params));
+      std::make_unique<cloth::Simulation>(placed.model, placed.pinned, simulation_params);
   for (const std::string& note : simulation->startNotes())
   {
     ROS_WARN_STREAM(note);
@@ -90,6 +100,7 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , spheres_(context())
     , pulls_(context(), pull_ends_)
     , predictions_(context())
+    , states_(context(), params.states)
     , spinner_(REQUEST_THREADS, &queue_)
     , step_spinner_(STEP_THREADS, &step_queue_)
 {

@@ -25,7 +25,6 @@ std::chrono::steady_clock::duration periodOf(double rate)
 ClothPublisher::ClothPublisher(ros::NodeHandle node, const NodeParams& params,
                                const Placement& placement)
     : placement_(placement)
-    , time_step_(params.simulation.solver.time_step)
     , painter_(params.markers, placement)
     , diagnostics_(node)
     , grasps_(node, placement)
@@ -281,12 +280,12 @@ void ClothPublisher::publishSnapshot(bool markers, bool surface)
 StatusSource ClothPublisher::statusSource()
 {
   StatusSource source;
-  source.time_step = time_step_;
   source.postponed = postponed_;
   loop_->call(
       [&source](cloth::Simulation& simulation)
       {
         source.summary = simulation.summary();
+        source.time_step = simulation.params().solver.time_step;
         source.grasps = static_cast<int>(simulation.grasps().size());
         source.spheres = static_cast<int>(simulation.spheres().size());
       });

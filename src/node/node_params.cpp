@@ -143,6 +143,7 @@ std::vector<std::string> problems(const NodeParams& params)
   append(found, "rectangle/", problems(params.rectangle));
   append(found, "pins: ", problems(params.pins));
   append(found, "", grouped(params.simulation));
+  append(found, "", problems(params.states));
   return found;
 }
 

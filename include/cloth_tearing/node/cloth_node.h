@@ -17,6 +17,7 @@
 #include "cloth_tearing/node/pull_server.h"
 #include "cloth_tearing/node/request_server.h"
 #include "cloth_tearing/node/sphere_services.h"
+#include "cloth_tearing/node/state_services.h"
 
 namespace cloth_tearing
 {
@@ -58,6 +59,7 @@ private:
   SphereServices spheres_;
   PullServer pulls_;
   PullPredictor predictions_;
+  StateServices states_;
   ros::AsyncSpinner spinner_;
   ros::AsyncSpinner step_spinner_;
 };

@@ -111,7 +111,6 @@ private:
   void publishTears(const std::vector<cloth::TearEvent>& tears) const;
 
   Placement placement_;
-  double time_step_;
   cloth::SimulationLoop* loop_ = nullptr;
   ClothMarkers painter_;
   Channel markers_;

@@ -11,6 +11,7 @@
 #include "cloth_tearing/core/pins.h"
 #include "cloth_tearing/core/simulation.h"
 #include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/node/state_store.h"
 
 namespace cloth_tearing
 {
@@ -63,6 +64,7 @@ struct NodeParams
   cloth::RectangleParams rectangle;
   cloth::PinParams pins = { { "top" }, {}, {} };
   cloth::SimulationParams simulation;
+  StateStoreParams states;
 
   double tf_patience = 0.2;       ///< how long a request may wait for its transform [s], 0 to 10
   double command_patience = 1.0;  ///< how long it may wait for the simulation [s], 0.01 to 60
