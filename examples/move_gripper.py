@@ -20,13 +20,13 @@ PAD = 0.018  # radius of a finger's pad [m]
 OPEN, CLOSED = 0.06, 0.022  # distance of the pads' centres from the middle [m]
 
 # The way: x, y, z of the gripper, opening [m], and how long it takes to get there [s].
-BELOW = (0.15, -0.02, 0.55, OPEN, 2.0)
-ROUND_THE_EDGE = (0.15, -0.02, 0.74, OPEN, 1.0)
-SHUT = (0.15, -0.02, 0.74, CLOSED, 0.6)
-TAUT = (0.2, -0.2, 0.6, CLOSED, 1.5)
-TORN = (0.3, -0.6, 0.4, CLOSED, 3.0)
-LET_GO = (0.3, -0.6, 0.4, OPEN, 0.6)
-AWAY = (0.3, -0.6, 0.32, OPEN, 1.5)
+BELOW = (0.2, -0.02, 0.75, OPEN, 2.0)
+ROUND_THE_EDGE = (0.2, -0.02, 0.94, OPEN, 1.0)
+SHUT = (0.2, -0.02, 0.94, CLOSED, 0.6)
+TAUT = (0.22, -0.3, 0.9, CLOSED, 1.5)
+TORN = (0.3, -0.62, 0.95, CLOSED, 3.0)
+LET_GO = (0.3, -0.62, 0.95, OPEN, 0.6)
+AWAY = (0.3, -0.62, 0.7, OPEN, 1.5)
 
 
 def call(name, service, request):
@@ -42,7 +42,7 @@ class Mover:
     def __init__(self):
         self.joints = rospy.Publisher("joint_states", JointState, queue_size=10)
         self.fingers = rospy.Publisher("cloth/spheres", CollisionSpheres, queue_size=1, latch=True)
-        self.place = (0.15, -0.45, 0.4, OPEN)
+        self.place = (0.2, -0.45, 0.66, OPEN)
         self.rate = rospy.Rate(RATE)
         self.grasp_id = 0
         self.tears = 0
@@ -64,7 +64,8 @@ class Mover:
         self.rate.sleep()
 
     def go(self, target):
-        """Moves to a point of the way, gently off and gently to a stop."""
+        """Moves to a point of the way, gently off and gently to a stop, and tells of the fingers again:
+        a cloth that does not know their frames yet has refused them before."""
         start, *end, duration = self.place, *target
         count = round(duration * RATE)
         for i in range(1, count + 1):
@@ -72,6 +73,7 @@ class Mover:
             part = part * part * (3.0 - 2.0 * part)
             self.place = [a + part * (b - a) for a, b in zip(start, end)]
             self.publish()
+        self.show_fingers()
 
     def wait_until(self, is_true, what):
         """Stands still until something is true."""
@@ -100,7 +102,6 @@ class Mover:
         rospy.wait_for_service("cloth/grasp", PATIENCE)
         self.wait_until(lambda: self.joints.get_num_connections() > 0, "robot_state_publisher")
         self.wait_until(lambda: self.fingers.get_num_connections() > 0, "the cloth")
-        self.show_fingers()
         for point in (BELOW, ROUND_THE_EDGE, SHUT):
             self.go(point)
         self.take_hold()

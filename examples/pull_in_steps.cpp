@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double ENOUGH = 0.8;    // of what the cloth near the gripper can bear [-]; 1 = it tears
-constexpr double STRIDE = 0.02;   // [m]
+constexpr double STRIDE = 0.01;   // [m]
 constexpr double LONGEST = 60.0;  // how long a pull may take on the wall clock [s]
 
 cloth_tearing::PullGoal downwards(std::uint64_t grasp, double distance)
@@ -22,7 +22,7 @@ cloth_tearing::PullGoal downwards(std::uint64_t grasp, double distance)
   goal.grasp_id = grasp;
   goal.direction.z = -1.0;
   goal.distance = distance;
-  goal.linear_speed = 0.2;
+  goal.linear_speed = 0.1;
   return goal;
 }
 
@@ -32,26 +32,26 @@ bool pullAndTear()
   const cloth_tearing::ClothClient cloth("cloth");
   geometry_msgs::Point lower_edge;
   lower_edge.z = 0.5;
+  const std::size_t before = cloth.tears().size();
   const std::uint64_t grasp = cloth.grasp(lower_edge, 0.05).grasp_id;
 
-  std::uint32_t too_early = 0;
-  double near = cloth.graspState(grasp).utilisation;
-  while (near < ENOUGH && too_early == 0)
+  while (cloth.graspState(grasp).utilisation < ENOUGH)
   {
-    too_early = cloth.pull(downwards(grasp, STRIDE), LONGEST).tears;
-    near = cloth.graspState(grasp).utilisation;
-    std::printf("utilisation %.2f\n", near);
+    cloth.pull(downwards(grasp, STRIDE), LONGEST);
+    std::printf("utilisation %.2f\n", cloth.graspState(grasp).utilisation);
   }
 
   const auto forecast = cloth.predictPull(downwards(grasp, 0.3), LONGEST);
   std::printf("0.3 m more would make %u tears\n", forecast.tears);
+  const bool held = cloth.tears().size() == before;
+  std::printf("%s\n", held ? "nothing tore yet" : "it tore too early");
 
-  auto goal = downwards(grasp, 0.5);
-  goal.stop_tears = 20;
+  auto goal = downwards(grasp, 0.3);
+  goal.stop_tears = 5;
+  goal.release = true;
   const auto torn = cloth.pull(goal, LONGEST);
   std::printf("%u tears, at most %.1f N: %s\n", torn.tears, torn.peak_force, torn.message.c_str());
-  cloth.release(grasp);
-  return torn.tears > 0 && too_early == 0;
+  return held && torn.tears >= goal.stop_tears;
 }
 
 }  // namespace

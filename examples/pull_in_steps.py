@@ -9,11 +9,11 @@ import sys
 
 import actionlib
 import rospy
-from cloth_tearing.msg import GraspStates, PullAction, PullGoal, PullResult
-from cloth_tearing.srv import Grasp, GraspRequest, Release, ReleaseRequest
+from cloth_tearing.msg import GraspStates, PullAction, PullGoal
+from cloth_tearing.srv import GetTearEvents, GetTearEventsRequest, Grasp, GraspRequest
 
 ENOUGH = 0.8  # of what the cloth near the gripper can bear [-]; 1 = it tears
-STRIDE = 0.02  # [m]
+STRIDE = 0.01  # [m]
 PATIENCE = 60.0  # for each answer [s]
 
 
@@ -24,47 +24,53 @@ def call(name, service, request):
     return answer if answer.success else sys.exit(f"{name}: {answer.message}")
 
 
+def connect(name):
+    """A client of ~pull or ~predict_pull."""
+    client = actionlib.SimpleActionClient(name, PullAction)
+    return client if client.wait_for_server(rospy.Duration(PATIENCE)) else sys.exit(f"no {name}")
+
+
+def pull_down(client, grasp_id, distance, **more):
+    """Pulls straight down, and waits for the end. Returns the result."""
+    goal = PullGoal(grasp_id=grasp_id, distance=distance, linear_speed=0.1, **more)
+    goal.header.frame_id = "world"
+    goal.direction.z = -1.0
+    client.send_goal_and_wait(goal, rospy.Duration(PATIENCE))
+    return client.get_result() or sys.exit("the pull was not over in time")
+
+
 def utilisation(grasp_id):
     """How near the cloth beside the grasp is to tearing [-]."""
     states = rospy.wait_for_message("cloth/grasp_states", GraspStates, PATIENCE)
     return next(state.utilisation for state in states.grasps if state.grasp_id == grasp_id)
 
 
-def pull_down(action, grasp_id, distance, stop_tears=0):
-    """Pulls straight down, or only predicts it, and waits for the end. Returns the result."""
-    goal = PullGoal(grasp_id=grasp_id, distance=distance, linear_speed=0.2, stop_tears=stop_tears)
-    goal.header.frame_id = "world"
-    goal.direction.z = -1.0
-    client = actionlib.SimpleActionClient(action, PullAction)
-    if not client.wait_for_server(rospy.Duration(PATIENCE)):
-        sys.exit(f"nobody serves {action}")
-    client.send_goal_and_wait(goal, rospy.Duration(PATIENCE))
-    result = client.get_result()
-    if result is None or result.outcome not in (PullResult.ARRIVED, PullResult.TEARS):
-        sys.exit(f"{action}: {result.message if result else 'not over in time'}")
-    return result
+def newest_tear():
+    """The number of the newest tear."""
+    return call("cloth/get_tear_events", GetTearEvents, GetTearEventsRequest(max_count=1)).newest
 
 
 def main():
     rospy.init_node("pull_in_steps")
+    pull, predict = connect("cloth/pull"), connect("cloth/predict_pull")
     request = GraspRequest(radius=0.05)
     request.header.frame_id = "world"
     request.point.z = 0.5  # the middle of the lower edge
+    before = newest_tear()
     grasp_id = call("cloth/grasp", Grasp, request).grasp_id
 
-    too_early, near = 0, utilisation(grasp_id)
-    while near < ENOUGH and not too_early:
-        too_early = pull_down("cloth/pull", grasp_id, STRIDE).tears
-        near = utilisation(grasp_id)
-        print(f"utilisation {near:.2f}", flush=True)
+    while utilisation(grasp_id) < ENOUGH:
+        pull_down(pull, grasp_id, STRIDE)
+        print(f"utilisation {utilisation(grasp_id):.2f}", flush=True)
 
-    predicted = pull_down("cloth/predict_pull", grasp_id, 0.3).tears
+    predicted = pull_down(predict, grasp_id, 0.3).tears
     print(f"0.3 m more would make {predicted} tears", flush=True)
+    held = newest_tear() == before
+    print("nothing tore yet" if held else "it tore too early", flush=True)
 
-    torn = pull_down("cloth/pull", grasp_id, 0.5, stop_tears=20)
+    torn = pull_down(pull, grasp_id, 0.3, stop_tears=5, release=True)
     print(f"{torn.tears} tears, at most {torn.peak_force:.1f} N: {torn.message}")
-    call("cloth/release", Release, ReleaseRequest(grasp_id=grasp_id))
-    return 0 if torn.tears and not too_early else 1
+    return 0 if held and torn.tears >= 5 else 1
 
 
 if __name__ == "__main__":
