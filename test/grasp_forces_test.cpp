@@ -237,6 +237,29 @@ TEST_P(GraspForces, AddUpInAStepThatTears)
   EXPECT_GT(strongest, 10.0 * weight);
 }
 
+TEST(ForceBalanceOfForceSprings, CountsWhatSliversGainThatAreTreatedAsHeavier)
+{
+  SimulationParams params = tearable(SolverKind::FORCE_SPRINGS);
+  params.solver.max_substeps = 1;  // not enough for what tears leave behind
+  const ClothModel flat = sheet(0.3, 0.3, 7, 7);
+  Simulation simulation(upright(flat), edgeOf(flat, "top"), params);
+  DragTarget target;
+  target.pose.position = Vec3d(0.0, 0.0, -0.7);
+  target.linear_speed = 0.5;
+  simulation.drag(take(simulation, Vec3d(0.0, 0.0, -0.3), 0.06), target);
+  double gained = 0.0;
+  double strongest = 0.0;
+  for (int i = 0; i < 800; ++i)
+  {
+    run(simulation, 1);
+    const ForceBalance balance = simulation.forceBalance();
+    gained = std::max(gained, balance.limiter.norm());
+    strongest = std::max(strongest, balance.pin.norm());
+    EXPECT_LT((sumOf(balance) - balance.momentum_rate).norm(), 0.001 * strongest) << i;
+  }
+  EXPECT_GT(gained, 0.01 * strongest);
+}
+
 TEST_P(GraspForces, OfAGraspOffCentreHaveTheTorqueOfTheWeightThatHangsFromIt)
 {
   Simulation simulation(upright(sheet(0.3, 0.3, 7, 7)), {}, calm(GetParam()));
