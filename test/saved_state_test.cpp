@@ -215,6 +215,20 @@ TEST_P(SavedState, GoesOnWithGlidesAndPulls)
   }
 }
 
+/// Without spheres and floor only springs that the solver saw stretched are looked at.
+TEST_P(SavedState, GoesOnTearingWhereOnlyAGripperPulls)
+{
+  const ClothModel model = sheet(1.0, 1.0, 10, 10);
+  SimulationParams params = determinism::parameters(GetParam());
+  params.contact.floor = false;
+  Simulation original(upright(model), edgeOf(model, "top"), params);
+  determinism::drag(original);
+  Simulation copy = another().restored(original.save());
+
+  EXPECT_EQ(hashesOf(copy, 3 * AFTER), hashesOf(original, 3 * AFTER));
+  EXPECT_GT(original.revision(), 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothSolvers, SavedState,
                          ::testing::Values(SolverKind::XPBD, SolverKind::FORCE_SPRINGS),
                          [](const ::testing::TestParamInfo<SolverKind>& solver)
