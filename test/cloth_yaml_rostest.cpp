@@ -98,6 +98,8 @@ TEST(ClothYaml, SaysTheDefaultsOfTheModel)
   const cloth_tearing::NodeParams compiled;
 
   EXPECT_EQ(shipped.model_file, compiled.model_file);
+  EXPECT_EQ(shipped.model_folders, compiled.model_folders);
+  EXPECT_EQ(shipped.export_folder, compiled.export_folder);
   EXPECT_EQ(shipped.import.scale, compiled.import.scale);
   EXPECT_EQ(shipped.import.weld_distance, compiled.import.weld_distance);
   EXPECT_EQ(shipped.rectangle.width, compiled.rectangle.width);

@@ -103,6 +103,43 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   EXPECT_EQ(params.markers.coloring, cloth_tearing::Coloring::STRAIN);
 }
 
+TEST(ParamsLoader, TakesAVectorAsAListOrAsAGroupOfItsAxes)
+{
+  XmlRpcValue tree;
+  tree["environment"]["wind"] = list({ 1, 2.5, -3 });
+  tree["environment"]["gravity"]["x"] = 1;
+  tree["environment"]["gravity"]["y"] = 2.5;
+  tree["environment"]["gravity"]["z"] = -3.0;
+
+  const cloth_tearing::LoadedParams loaded = loadParams(tree);
+
+  EXPECT_EQ(joined(loaded.problems), "");
+  EXPECT_EQ(loaded.params.simulation.environment.wind, cloth::Vec3d(1.0, 2.5, -3.0));
+  EXPECT_EQ(loaded.params.simulation.environment.gravity, cloth::Vec3d(1.0, 2.5, -3.0));
+}
+
+TEST(ParamsLoader, RefusesAVectorOfWhichAnAxisIsMissingOrWrongOrTooMany)
+{
+  XmlRpcValue tree;
+  tree["environment"]["gravity"]["x"] = 1.0;
+  tree["environment"]["wind"]["x"] = 1.0;
+  tree["environment"]["wind"]["y"] = "strong";
+  tree["environment"]["wind"]["z"] = std::numeric_limits<double>::infinity();
+  tree["environment"]["wind"]["w"] = 1.0;
+
+  const std::string problems = joined(loadParams(tree).problems);
+
+  EXPECT_NE(problems.find("there is no environment/gravity/y, environment/gravity/z"),
+            std::string::npos)
+      << problems;
+  EXPECT_NE(problems.find("environment/wind/y is the text \"strong\", must be a number"),
+            std::string::npos)
+      << problems;
+  EXPECT_NE(problems.find("environment/wind/z is inf"), std::string::npos) << problems;
+  EXPECT_NE(problems.find("there is no parameter environment/wind/w"), std::string::npos)
+      << problems;
+}
+
 TEST(ParamsLoader, CarriesTheStrengthMapNumberByNumber)
 {
   XmlRpcValue tree;

@@ -7,12 +7,15 @@
 namespace cloth
 {
 
-void writeObj(std::ostream& out, const Surface& surface)
+void writeObj(std::ostream& out, const Surface& surface, const Vec3d& origin)
 {
   const std::locale before = out.imbue(std::locale::classic());
-  const std::streamsize precision = out.precision(std::numeric_limits<Real>::max_digits10);
-  for (const Vec3& x : surface.position)
+  const bool moved = origin != Vec3d::Zero();
+  const std::streamsize precision = out.precision(moved ? std::numeric_limits<double>::max_digits10
+                                                        : std::numeric_limits<Real>::max_digits10);
+  for (const Vec3& position : surface.position)
   {
+    const Vec3d x = position.cast<double>() + origin;
     out << "v " << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
   }
   out.precision(std::numeric_limits<double>::max_digits10);

@@ -256,6 +256,17 @@ StepAnswer SimulationLoop::restore(const std::string& state)
       });
 }
 
+void SimulationLoop::takeCloth(Simulation other)
+{
+  call(
+      [this, &other](Simulation& simulation)
+      {
+        other.tune(tuningOf(simulation.params()));
+        cutRequests("another cloth was put in its place");
+        simulation.takeCloth(std::move(other));
+      });
+}
+
 LoopState SimulationLoop::state() const
 {
   const bool awaits_clock = options_.pace == Pace::CLOCK && !paused_ && !following_;

@@ -54,32 +54,41 @@ std::vector<std::string> grouped(const cloth::SimulationParams& simulation)
 
 const std::string PACKAGE_SCHEME = "package://";
 
-bool inPackage(const std::string& model_file)
+bool inPackage(const std::string& path)
 {
-  return model_file.compare(0, PACKAGE_SCHEME.size(), PACKAGE_SCHEME) == 0;
+  return path.compare(0, PACKAGE_SCHEME.size(), PACKAGE_SCHEME) == 0;
 }
 
-/// The file that `model_file` names: package:// leads into an installed package.
-std::string resolved(const std::string& model_file)
+void checkPath(std::vector<std::string>& found, const std::string& parameter,
+               const std::string& path)
 {
-  if (!inPackage(model_file))
+  if (!inPackage(path) && (path.empty() || path.front() != '/'))
   {
-    return model_file;
+    found.push_back(parameter + " is \"" + path + "\", must be an absolute path or " +
+                    PACKAGE_SCHEME + "PACKAGE/PATH");
+  }
+}
+
+}  // namespace
+
+std::string resolvedPath(const std::string& parameter, const std::string& path)
+{
+  if (!inPackage(path))
+  {
+    return path;
   }
   const std::size_t name = PACKAGE_SCHEME.size();
-  const std::size_t slash = model_file.find('/', name);
-  const std::string package = model_file.substr(name, slash - name);
+  const std::size_t slash = path.find('/', name);
+  const std::string package = path.substr(name, slash - name);
   const std::string folder = ros::package::getPath(package);
   if (folder.empty() || slash == std::string::npos)
   {
     throw std::runtime_error(
-        "model_file " + model_file + ": " +
+        parameter + " " + path + ": " +
         (folder.empty() ? "there is no package " + package : "there is no path after the package"));
   }
-  return folder + model_file.substr(slash);
+  return folder + path.substr(slash);
 }
-
-}  // namespace
 
 std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position)
 {
@@ -133,11 +142,17 @@ std::vector<std::string> problems(const NodeParams& params)
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
   append(found, "markers/", problems(params.markers));
-  if (!params.model_file.empty() && !inPackage(params.model_file) &&
-      params.model_file.front() != '/')
+  if (!params.model_file.empty())
   {
-    found.push_back("model_file is \"" + params.model_file + "\", must be an absolute path or " +
-                    PACKAGE_SCHEME + "PACKAGE/PATH");
+    checkPath(found, "model_file", params.model_file);
+  }
+  for (std::size_t i = 0; i < params.model_folders.size(); ++i)
+  {
+    checkPath(found, "model_folders[" + std::to_string(i) + "]", params.model_folders[i]);
+  }
+  if (!params.export_folder.empty())
+  {
+    checkPath(found, "export_folder", params.export_folder);
   }
   append(found, "import/", problems(params.import));
   append(found, "rectangle/", problems(params.rectangle));
@@ -171,7 +186,8 @@ PlacedModel placedModel(const NodeParams& params)
   }
   else
   {
-    cloth::ObjImport imported = cloth::readObjFile(resolved(params.model_file), params.import);
+    cloth::ObjImport imported =
+        cloth::readObjFile(resolvedPath("model_file", params.model_file), params.import);
     placed.model = std::move(imported.model);
     for (const cloth::ImportFinding& finding : imported.report.findings)
     {

@@ -290,21 +290,14 @@ bool ParamReader::readAxes(const std::string& name, cloth::Vec3d& value)
   for (int i = 0; i < 3; ++i)
   {
     const std::string axis = name + "/" + "xyz"[i];
-    const auto entry = left_.find(axis);
-    if (entry == left_.end())
+    if (left_.count(axis) == 0)
     {
       missing += (missing.empty() ? "" : ", ") + axis;
       continue;
     }
     ++found;
-    XmlRpcValue list;
-    list[0] = entry->second;
-    std::vector<double> number;
-    if (toNumbers(axis, list, 1, "", number))
-    {
-      value[i] = number[0];
-    }
-    left_.erase(entry);
+    read(axis, value[i]);
+    known_.erase(axis);  // the vector is the parameter
   }
   if (found > 0 && found < 3)
   {

@@ -59,6 +59,8 @@ void readRectangle(ParamReader& reader, cloth::RectangleParams& rectangle)
 void readModel(ParamReader& reader, NodeParams& params)
 {
   reader.read("model_file", params.model_file);
+  reader.read("model_folders", params.model_folders);
+  reader.read("export_folder", params.export_folder);
   reader.read("import/scale", params.import.scale);
   reader.read("import/weld_distance", params.import.weld_distance);
   readRectangle(reader, params.rectangle);
@@ -91,8 +93,8 @@ void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
   reader.read("tear_log_size", simulation.tear_log_size);
 
   reader.read("material/areal_density", simulation.material.areal_density);
-  reader.readChoice<cloth::StiffnessLaw>("material/stiffness_law",
-                                         stiffnessLaws(), simulation.material.stiffness_law);
+  reader.readChoice<cloth::StiffnessLaw>("material/stiffness_law", stiffnessLaws(),
+                                         simulation.material.stiffness_law);
   reader.read("material/stiffness", simulation.material.stiffness);
   reader.read("material/bend_shear_stiffness", simulation.material.bend_shear_stiffness);
   reader.read("material/damping", simulation.material.damping);

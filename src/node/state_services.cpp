@@ -6,8 +6,9 @@
 namespace cloth_tearing
 {
 
-StateServices::StateServices(const NodeContext& context, const StateStoreParams& params)
-    : context_(context), store_(params)
+StateServices::StateServices(const NodeContext& context, const StateStoreParams& params,
+                             std::function<void()> on_restore)
+    : context_(context), store_(params), on_restore_(std::move(on_restore))
 {
   context_.requests.serve<NamedState>(
       context_.node, "save_state", [this](auto& q, auto& a) { onSave(q, a); }, Effect::LOOKS);
@@ -43,6 +44,7 @@ void StateServices::onRestore(const NamedState::Request& request, NamedState::Re
   const std::uint64_t settled = context_.publisher.faults();
   const cloth::StepAnswer answer = context_.loop.restore(*bytes);
   context_.publisher.clearFault(settled);
+  on_restore_();
   response.step = answer.step;
   response.state_hash = answer.state_hash;
 }

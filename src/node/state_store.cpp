@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -14,6 +13,8 @@
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/node/file_names.h"
+#include "cloth_tearing/node/whole_file.h"
 
 namespace cloth_tearing
 {
@@ -21,26 +22,8 @@ namespace cloth_tearing
 namespace
 {
 
-constexpr std::size_t LONGEST_NAME = 64;
 constexpr const char* EXTENSION = ".cloth";
 constexpr double MEGABYTE = 1e6;
-
-bool mayBeInName(char c)
-{
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == '-' || c == '.';
-}
-
-void refuseBadName(const std::string& name)
-{
-  if (name.empty() || name.size() > LONGEST_NAME || name.front() == '.' ||
-      !std::all_of(name.begin(), name.end(), mayBeInName))
-  {
-    throw cloth::Refusal("name is \"" + name.substr(0, LONGEST_NAME) +
-                         "\", must be 1 to 64 letters, digits, '_', '-' and '.', not beginning "
-                         "with '.'");
-  }
-}
 
 void refuseLarge(std::uint64_t bytes, std::uint64_t most, const std::string& what)
 {
@@ -63,7 +46,7 @@ void refuseLarge(std::uint64_t bytes, std::uint64_t most, const std::string& wha
 class File
 {
 public:
-  File(const std::string& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  File(const std::string& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC)) {}
   ~File()
   {
     if (number_ >= 0)
@@ -77,28 +60,9 @@ public:
   bool isOpen() const { return number_ >= 0; }
   int number() const { return number_; }
 
-  /// @return whether all went well, which some file systems tell only now; errno says what did not
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
 private:
   int number_;
 };
-
-/// @return whether all was written; errno says why not
-bool writeAll(int file, const std::string& bytes)
-{
-  std::size_t written = 0;
-  while (written < bytes.size())
-  {
-    const ssize_t more = ::write(file, bytes.data() + written, bytes.size() - written);
-    if (more < 0 && errno != EINTR)
-    {
-      return false;
-    }
-    written += static_cast<std::size_t>(std::max<ssize_t>(0, more));
-  }
-  return true;
-}
 
 /// @return whether all of `bytes` was there; errno says why not
 bool readAll(int file, std::string& bytes)
@@ -120,54 +84,6 @@ bool readAll(int file, std::string& bytes)
   }
   return true;
 }
-
-/// A file beside the one to be replaced, gone in the end unless it took its place.
-class TemporaryFile
-{
-public:
-  explicit TemporaryFile(const std::string& target)
-      : path_(besides(target)), file_(path_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW)
-  {
-    if (!file_.isOpen())
-    {
-      refuseErrno("write", path_);
-    }
-  }
-  ~TemporaryFile()
-  {
-    if (!path_.empty())
-    {
-      ::unlink(path_.c_str());
-    }
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  /// Writes `bytes` and takes the place of `target`.
-  void become(const std::string& target, const std::string& bytes)
-  {
-    if (!writeAll(file_.number(), bytes) || ::fsync(file_.number()) != 0 || !file_.close() ||
-        ::rename(path_.c_str(), target.c_str()) != 0)
-    {
-      refuseErrno("write", target);
-    }
-    path_.clear();
-  }
-
-private:
-  /// Begins with '.', as no state does.
-  static std::string besides(const std::string& target)
-  {
-    static std::atomic<unsigned> count{ 0 };
-    const std::filesystem::path path(target);
-    return (path.parent_path() / ("." + path.filename().string() + "." +
-                                  std::to_string(::getpid()) + "." + std::to_string(++count)))
-        .string();
-  }
-
-  std::string path_;
-  File file_;
-};
 
 }  // namespace
 
@@ -191,7 +107,7 @@ std::uint64_t StateStore::mostBytes() const
 
 void StateStore::keep(const std::string& name, std::string bytes)
 {
-  refuseBadName(name);
+  cloth::refuseIf(nameProblems(name));
   const auto state = std::make_shared<const std::string>(std::move(bytes));
   const std::lock_guard<std::mutex> lock(mutex_);
   std::uint64_t all = state->size();
@@ -215,7 +131,7 @@ void StateStore::keep(const std::string& name, std::string bytes)
 
 StateStore::Bytes StateStore::kept(const std::string& name) const
 {
-  refuseBadName(name);
+  cloth::refuseIf(nameProblems(name));
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = kept_.find(name);
   if (found == kept_.end())
@@ -227,7 +143,7 @@ StateStore::Bytes StateStore::kept(const std::string& name) const
 
 std::string StateStore::pathOf(const std::string& name) const
 {
-  refuseBadName(name);
+  cloth::refuseIf(nameProblems(name));
   if (params_.folder.empty())
   {
     throw cloth::Refusal("there are no files of states: state_folder is empty");
@@ -245,12 +161,7 @@ void StateStore::write(const std::string& name, const std::string& bytes) const
   {
     throw cloth::Refusal("cannot make the folder " + params_.folder + ": " + error.message());
   }
-  TemporaryFile(path).become(path, bytes);
-  const File folder(params_.folder, O_RDONLY | O_DIRECTORY);
-  if (!folder.isOpen() || ::fsync(folder.number()) != 0)
-  {
-    refuseErrno("be sure of", path);
-  }
+  writeWholeFile(path, Existing::REPLACE, bytes);
 }
 
 StateStore::Bytes StateStore::read(const std::string& name) const

@@ -110,6 +110,12 @@ public:
   /// @throws Refusal as Simulation::restored(); nothing has changed then
   StepAnswer restore(const std::string& state);
 
+  /// Puts another cloth in place of the simulation's, see Simulation::takeCloth; a step() under way
+  /// is cut short.
+  /// @param other built with the simulation's parameters
+  /// @throws Refusal as Simulation::tune, if these have been tuned since and it cannot follow
+  void takeCloth(Simulation other);
+
   LoopState state() const;
 
 private:

@@ -13,6 +13,8 @@
 #include "cloth_tearing/node/frame_follower.h"
 #include "cloth_tearing/node/frames.h"
 #include "cloth_tearing/node/grasp_services.h"
+#include "cloth_tearing/node/live_tuning.h"
+#include "cloth_tearing/node/model_services.h"
 #include "cloth_tearing/node/node_params.h"
 #include "cloth_tearing/node/pull_server.h"
 #include "cloth_tearing/node/request_server.h"
@@ -60,6 +62,8 @@ private:
   PullServer pulls_;
   PullPredictor predictions_;
   StateServices states_;
+  LiveTuning tuning_;
+  ModelServices models_;
   ros::AsyncSpinner spinner_;
   ros::AsyncSpinner step_spinner_;
 };

@@ -60,6 +60,9 @@ struct NodeParams
   double clock_rate = 100.0;   ///< so often, in simulated time [Hz], 0.1 to 100000
 
   std::string model_file;  ///< an OBJ file, a path or package://PACKAGE/PATH; empty = the rectangle
+  std::string export_folder;  ///< of ~export; empty = nothing is exported
+  /// ~load_model takes files below these.
+  std::vector<std::string> model_folders = { "package://cloth_tearing/models" };
   cloth::ImportOptions import;
   cloth::RectangleParams rectangle;
   cloth::PinParams pins = { { "top" }, {}, {} };
@@ -70,10 +73,10 @@ struct NodeParams
   double command_patience = 1.0;  ///< how long it may wait for the simulation [s], 0.01 to 60
   double frame_timeout = 0.5;     ///< a frame without news for so long is lost [s], 0.01 to 60
   LostFrame lost_frame = LostFrame::HOLD;
-  double grasp_state_rate = 50.0;  ///< ~grasp_states and wrenches at most so often [Hz], 0.1 to 1000
-  double marker_rate = 30.0;      ///< ~markers at most so often [Hz], 0.1 to 1000
-  double surface_rate = 30.0;     ///< ~surface at most so often [Hz], 0.1 to 1000
-  double status_rate = 10.0;      ///< ~status so often [Hz], 0.1 to 1000
+  double grasp_state_rate = 50.0;  ///< ~grasp_states, wrenches at most so often [Hz], 0.1 to 1000
+  double marker_rate = 30.0;       ///< ~markers at most so often [Hz], 0.1 to 1000
+  double surface_rate = 30.0;      ///< ~surface at most so often [Hz], 0.1 to 1000
+  double status_rate = 10.0;       ///< ~status so often [Hz], 0.1 to 1000
   MarkerStyle markers;
 };
 
@@ -85,13 +88,18 @@ std::vector<std::string> problems(const MarkerStyle& style);
 /// Everything wrong with where the cloth is: frame_id and cloth_pose/position [m] in it.
 std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position);
 
-/// A height in frame_id [m] over the cloth frame's origin. Where there is no floor its height may be
-/// anything, and stays.
+/// A height in frame_id [m] over the cloth frame's origin. Where there is no floor its height may
+/// be anything, and stays.
 double floorInClothFrame(bool floor, double height, double origin);
 
 /// The simulation's parameters with the floor's height and the strength map in the cloth frame,
 /// whose axes are those of frame_id and whose origin is cloth_pose.position.
 cloth::SimulationParams inClothFrame(const NodeParams& params);
+
+/// The file or folder that `path` names: package:// leads into an installed package.
+/// @param parameter that says it, for messages
+/// @throws std::runtime_error if there is no such package
+std::string resolvedPath(const std::string& parameter, const std::string& path);
 
 /// The model that `params` name, its axes those of frame_id, its origin at cloth_pose.position,
 /// and the particles that are pinned.

@@ -3,6 +3,8 @@
 
 #include <cloth_tearing/NamedState.h>
 
+#include <functional>
+
 #include "cloth_tearing/node/request_server.h"
 #include "cloth_tearing/node/state_store.h"
 
@@ -13,7 +15,9 @@ namespace cloth_tearing
 class StateServices
 {
 public:
-  StateServices(const NodeContext& context, const StateStoreParams& params);
+  /// @param on_restore called after each: the state has brought its own parameters
+  StateServices(const NodeContext& context, const StateStoreParams& params,
+                std::function<void()> on_restore);
 
 private:
   void onSave(const NamedState::Request& request, NamedState::Response& response);
@@ -21,6 +25,7 @@ private:
 
   NodeContext context_;
   StateStore store_;
+  std::function<void()> on_restore_;
 };
 
 }  // namespace cloth_tearing

@@ -1,0 +1,46 @@
+// Parameters that change while the node runs, by dynamic_reconfigure under the names of cloth.yaml.
+#pragma once
+
+#include <boost/thread/recursive_mutex.hpp>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "cloth_tearing/core/simulation.h"
+#include "cloth_tearing/node/request_server.h"
+
+namespace cloth_tearing
+{
+
+/// One dynamic_reconfigure server for each group, in its namespace: ~material/set_parameters, ...,
+/// and ~set_parameters for what has no group. It knows no lists, so a vector is a group of x, y and
+/// z.
+///
+/// dynamic_reconfigure cannot refuse: a change that the simulation refuses is answered with the
+/// values in force, warned of and counted. Values beyond a limit it brings to the limit by itself.
+class LiveTuning
+{
+public:
+  /// @param start what the cloth was built with, in frame_id
+  LiveTuning(const NodeContext& context, const cloth::SimulationParams& start);
+  ~LiveTuning();
+
+  /// Shows the values in force, when something else has changed them. Warns if the simulation is
+  /// too busy to tell.
+  void show();
+
+private:
+  class Group;
+  template <class Config>
+  class GroupOf;
+
+  template <class Config>
+  void open(const std::string& name, const cloth::Tuning& start);
+
+  NodeContext context_;
+  boost::recursive_mutex mutex_;  ///< of all servers: what they show is what is in force
+  std::vector<std::unique_ptr<Group>> groups_;
+};
+
+}  // namespace cloth_tearing

@@ -1,0 +1,300 @@
+// One dynamic_reconfigure server for each group of parameters.
+#include "cloth_tearing/node/live_tuning.h"
+
+#include <cloth_tearing/BoundsMaxConfig.h>
+#include <cloth_tearing/BoundsMinConfig.h>
+#include <cloth_tearing/ContactConfig.h>
+#include <cloth_tearing/EnvironmentConfig.h>
+#include <cloth_tearing/GravityConfig.h>
+#include <cloth_tearing/MaterialConfig.h>
+#include <cloth_tearing/SolverConfig.h>
+#include <cloth_tearing/TearingConfig.h>
+#include <cloth_tearing/WindConfig.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/console.h>
+
+#include <string>
+
+#include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/node/node_params.h"
+#include "cloth_tearing/node/params_loader.h"
+
+namespace cloth_tearing
+{
+
+namespace
+{
+
+/// The level with which a server tells of its start; that of a change is as in cfg/.
+constexpr std::uint32_t AT_START = ~std::uint32_t{ 0 };
+
+// -- which shown value is which value of the core: `copy(shown, value)` goes either way -----------
+
+template <class Copy>
+void match(MaterialConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  cloth::Material& material = tuning.material;
+  copy(shown.areal_density, material.areal_density);
+  copy(shown.stiffness_law, material.stiffness_law);
+  copy(shown.stiffness, material.stiffness);
+  copy(shown.bend_shear_stiffness, material.bend_shear_stiffness);
+  copy(shown.damping, material.damping);
+}
+
+template <class Copy>
+void match(EnvironmentConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  copy(shown.air_friction, tuning.environment.air_friction);
+  copy(shown.wind_drag, tuning.environment.wind_drag);
+}
+
+template <class Config, class Copy>
+void matchAxes(Config& shown, cloth::Vec3d& vector, const Copy& copy)
+{
+  copy(shown.x, vector.x());
+  copy(shown.y, vector.y());
+  copy(shown.z, vector.z());
+}
+
+template <class Copy>
+void match(GravityConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  matchAxes(shown, tuning.environment.gravity, copy);
+}
+
+template <class Copy>
+void match(WindConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  matchAxes(shown, tuning.environment.wind, copy);
+}
+
+template <class Copy>
+void match(TearingConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  cloth::TearRules& rules = tuning.tearing;
+  copy(shown.enabled, rules.enabled);
+  copy(shown.tear_strain, rules.tear_strain);
+  copy(shown.weak_tear_strain, rules.weak_tear_strain);
+  copy(shown.one_point_tear_strain, rules.one_point_tear_strain);
+  copy(shown.tear_radius, rules.tear_radius);
+  copy(shown.crack_length, rules.crack_length);
+  copy(shown.hem_factor, rules.hem_factor);
+  copy(shown.hem_width, rules.hem_width);
+  copy(shown.max_tears_per_step, rules.max_tears_per_step);
+  copy(shown.min_length, rules.min_length);
+  copy(shown.min_altitude, rules.min_altitude);
+}
+
+template <class Copy>
+void match(ContactConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  cloth::ContactParams& contact = tuning.contact;
+  copy(shown.friction, contact.friction);
+  copy(shown.thickness, contact.thickness);
+  copy(shown.push_speed, contact.push_speed);
+  copy(shown.floor, contact.floor);
+  copy.height(contact.floor, shown.floor_height, contact.floor_height);
+  copy(shown.floor_friction, contact.floor_friction);
+  copy(shown.max_sphere_speed, contact.max_sphere_speed);
+  copy(shown.sphere_timeout, contact.sphere_timeout);
+}
+
+template <class Copy>
+void match(BoundsMinConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  matchAxes(shown, tuning.contact.bounds_min, copy);
+}
+
+template <class Copy>
+void match(BoundsMaxConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  matchAxes(shown, tuning.contact.bounds_max, copy);
+}
+
+template <class Copy>
+void match(SolverConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+{
+  copy(shown.max_strain, tuning.max_strain);
+  copy(shown.max_substeps, tuning.max_substeps);
+}
+
+/// From what is shown into the core.
+struct ToCore
+{
+  double origin;  ///< height of the cloth frame's origin in frame_id [m]
+
+  template <class Value>
+  void operator()(const Value& shown, Value& value) const
+  {
+    value = shown;
+  }
+  /// @throws Refusal of an unknown name
+  void operator()(const std::string& shown, cloth::StiffnessLaw& law) const
+  {
+    const auto found = stiffnessLaws().find(shown);
+    if (found == stiffnessLaws().end())
+    {
+      std::string names;
+      for (const auto& known : stiffnessLaws())
+      {
+        names += (names.empty() ? "" : ", ") + known.first;
+      }
+      throw cloth::Refusal("stiffness_law is \"" + shown + "\", must be one of " + names);
+    }
+    law = found->second;
+  }
+  void height(bool floor, double shown, double& value) const
+  {
+    value = floorInClothFrame(floor, shown, origin);
+  }
+};
+
+/// From the core into what is shown.
+struct ToShown
+{
+  double origin;  ///< height of the cloth frame's origin in frame_id [m]
+
+  template <class Value>
+  void operator()(Value& shown, const Value& value) const
+  {
+    shown = value;
+  }
+  void operator()(std::string& shown, cloth::StiffnessLaw law) const
+  {
+    for (const auto& known : stiffnessLaws())
+    {
+      shown = known.second == law ? known.first : shown;
+    }
+  }
+  void height(bool floor, double& shown, double value) const
+  {
+    if (floorInClothFrame(floor, shown, origin) != value)  // else it stays as it was given
+    {
+      shown = floorInClothFrame(floor, value, -origin);
+    }
+  }
+};
+
+}  // namespace
+
+class LiveTuning::Group
+{
+public:
+  virtual ~Group() = default;
+  virtual void show(cloth::Tuning& tuning) = 0;
+};
+
+template <class Config>
+class LiveTuning::GroupOf : public LiveTuning::Group
+{
+public:
+  /// @param name of the group; empty for none
+  GroupOf(LiveTuning& host, const std::string& name, cloth::Tuning tuning)
+      : context_(host.context_)
+      , request_(name.empty() ? "set_parameters" : name + "/set_parameters")
+      , in_force_(atStart(host.context_, name, tuning))
+      , server_(host.mutex_, ros::NodeHandle(host.context_.node, name))
+  {
+    server_.setCallback([this](Config& wanted, std::uint32_t level) { onChange(wanted, level); });
+  }
+
+  void show(cloth::Tuning& tuning) override
+  {
+    match(in_force_, tuning, ToShown{ context_.placement.origin.z() });
+    server_.updateConfig(in_force_);
+  }
+
+private:
+  /// The server reads its first values from the parameter server, where a list hides the entries of
+  /// a vector: they have to be there.
+  static Config atStart(const NodeContext& context, const std::string& name, cloth::Tuning& tuning)
+  {
+    Config config = Config::__getDefault__();
+    match(config, tuning, ToShown{ 0.0 });
+    config.__toServer__(ros::NodeHandle(context.node, name));
+    return config;
+  }
+
+  void onChange(Config& wanted, std::uint32_t level)
+  {
+    if (level == AT_START || level == 0)  // level 0: nothing changes
+    {
+      wanted = in_force_;
+      return;
+    }
+    const std::string reason = context_.requests.refusal(request_, [&] { tune(wanted); });
+    if (!reason.empty())
+    {
+      ROS_WARN_STREAM(context_.node.getNamespace()
+                      << "/" << request_ << " was refused, the values stay: " << reason);
+      wanted = in_force_;
+      return;
+    }
+    in_force_ = wanted;
+    context_.publisher.touch();
+  }
+
+  void tune(Config& wanted)
+  {
+    const ToCore copy{ context_.placement.origin.z() };
+    const std::vector<std::string> notes = context_.loop.call(
+        [&](cloth::Simulation& simulation)
+        {
+          cloth::Tuning tuning = cloth::tuningOf(simulation.params());
+          match(wanted, tuning, copy);
+          return simulation.tune(tuning);
+        });
+    for (const std::string& note : notes)
+    {
+      ROS_WARN_STREAM(note);
+    }
+  }
+
+  NodeContext context_;
+  std::string request_;
+  Config in_force_;  ///< guarded by the servers' mutex
+  dynamic_reconfigure::Server<Config> server_;
+};
+
+LiveTuning::LiveTuning(const NodeContext& context, const cloth::SimulationParams& start)
+    : context_(context)
+{
+  const cloth::Tuning tuning = cloth::tuningOf(start);
+  open<MaterialConfig>("material", tuning);
+  open<EnvironmentConfig>("environment", tuning);
+  open<GravityConfig>("environment/gravity", tuning);
+  open<WindConfig>("environment/wind", tuning);
+  open<TearingConfig>("tearing", tuning);
+  open<ContactConfig>("contact", tuning);
+  open<BoundsMinConfig>("contact/bounds_min", tuning);
+  open<BoundsMaxConfig>("contact/bounds_max", tuning);
+  open<SolverConfig>("", tuning);
+}
+
+LiveTuning::~LiveTuning() = default;
+
+template <class Config>
+void LiveTuning::open(const std::string& name, const cloth::Tuning& start)
+{
+  groups_.push_back(std::make_unique<GroupOf<Config>>(*this, name, start));
+}
+
+void LiveTuning::show()
+{
+  const boost::recursive_mutex::scoped_lock lock(mutex_);
+  try
+  {
+    cloth::Tuning tuning = context_.loop.call([](const cloth::Simulation& simulation)
+                                              { return cloth::tuningOf(simulation.params()); });
+    for (const auto& group : groups_)
+    {
+      group->show(tuning);
+    }
+  }
+  catch (const cloth::Busy& busy)
+  {
+    ROS_WARN_STREAM("dynamic_reconfigure shows values that may be old: " << busy.what());
+  }
+}
+
+}  // namespace cloth_tearing
