@@ -72,6 +72,7 @@ TEST(SolverEntry, TellsHowItRuns)
   const DiagnosticStatusWrapper entry = solver(source);
 
   EXPECT_EQ(value(entry, "pace"), "wall");
+  EXPECT_EQ(value(entry, "substeps a step"), "1");
   EXPECT_EQ(value(entry, "real-time factor"), "0.97");
   EXPECT_EQ(value(entry, "clock jumps"), "3");
   EXPECT_EQ(value(entry, "worst utilisation"), "0.25");

@@ -542,6 +542,7 @@ Summary Simulation::summary() const
                                      [](double length) { return length > 0.0; }));
   summary.pieces = cloth_.damage.pieces;
   summary.pieces_at_rest = cloth_.damage.pieces_at_rest;
+  summary.substeps = stability_.substeps;
   for (double area : cloth_.rest.area)
   {
     summary.rest_area += area;

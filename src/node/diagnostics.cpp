@@ -56,6 +56,7 @@ void describeSolver(const StatusSource& source, DiagnosticStatusWrapper& entry)
   summarise(source, entry);
   entry.add("pace", name(source.loop.pace));
   entry.add("real-time factor", cloth::text(source.loop.real_time_factor));
+  entry.add("substeps a step", source.summary.substeps);
   entry.add("clock jumps", source.loop.clock_jumps);
   entry.add("time [s]", cloth::text(source.summary.time));
   entry.add("step", source.summary.step);

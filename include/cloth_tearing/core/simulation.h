@@ -95,6 +95,7 @@ struct Summary
   int triangles = 0;
   int pieces = 0;
   int pieces_at_rest = 0;
+  int substeps = 1;          ///< that the solver cuts a step into
   double rest_area = 0.0;    ///< [m^2]
   double mass = 0.0;         ///< [kg]
   double max_strain = 0.0;   ///< [-]

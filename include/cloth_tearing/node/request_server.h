@@ -5,9 +5,12 @@
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -72,10 +75,9 @@ public:
     {
       publisher_.touch();
     }
-    else
+    else if (mayComplain(name))
     {
-      ROS_WARN_STREAM_THROTTLE(COMPLAIN_EVERY,
-                               "A message on " << name << " was refused: " << reason);
+      ROS_WARN_STREAM("A message on " << name << " was refused: " << reason);
     }
   }
 
@@ -98,9 +100,27 @@ public:
   }
 
 private:
-  static constexpr double COMPLAIN_EVERY = 5.0;  // [s]
+  using Clock = std::chrono::steady_clock;  // ROS time may stand still
+
+  static constexpr std::chrono::seconds COMPLAIN_EVERY{ 5 };
+
+  /// Whether there was no complaint about this topic for a while.
+  bool mayComplain(const std::string& name)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    const auto last = complained_.find(name);
+    if (last != complained_.end() && now < last->second + COMPLAIN_EVERY)
+    {
+      return false;
+    }
+    complained_[name] = now;
+    return true;
+  }
 
   ClothPublisher& publisher_;
+  std::mutex mutex_;
+  std::map<std::string, Clock::time_point> complained_;  ///< by topic; guarded by mutex_
   std::vector<ros::ServiceServer> services_;
 };
 
