@@ -87,6 +87,7 @@ TEST_P(TunedWithBothSolvers, BeforeTheFirstStepIsAsIfBuiltWithTheValues)
 
   EXPECT_EQ(tuned.startNotes(), built.startNotes());
   EXPECT_EQ(tuned.summary().mass, built.summary().mass);
+  EXPECT_EQ(tuned.cloth().damage.hem, built.cloth().damage.hem);
   pullDown(built);
   pullDown(tuned);
   std::size_t tears = 0;
