@@ -265,6 +265,22 @@ TEST_F(GraspInterface, APullArrives)
   EXPECT_EQ(result.pieces, 1u);
 }
 
+TEST_F(GraspInterface, APullTellsHowFarItIs)
+{
+  Collector<PullActionFeedback> heard("/cloth/pull/feedback");
+  const std::uint64_t grasp = cloth_.grasp(at(0.0, BOTTOM), 0.05).grasp_id;
+  const auto pull = begin(pullDown(grasp, 0.02));
+  ASSERT_TRUE(isSoon([&] { return heard.publishers() > 0; }));
+  cloth_.step(20);
+
+  const PullActionFeedback half =
+      heard.waitFor("half of the way", [](const PullActionFeedback& f)
+                    { return std::abs(f.feedback.fraction - 0.5) < 1e-6; });
+  EXPECT_GT(half.feedback.force, 0.0);
+  EXPECT_GT(half.feedback.utilisation, 0.0);
+  EXPECT_EQ(half.feedback.tears, 0u);
+}
+
 TEST_F(GraspInterface, APullStopsInTheStepOfTheFirstTear)
 {
   PullGoal goal = pullDown(0, 1.0);
