@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/simulation_loop.h"
 #include "scenes.h"
 
 namespace cloth
@@ -330,6 +332,25 @@ TEST_P(TunedWithBothSolvers, AnotherClothGoesOnAsIfItHadBeenThereFromTheStart)
   const std::vector<TearEvent> tears = run(simulation, 800);
   ASSERT_FALSE(tears.empty());
   EXPECT_EQ(tears.front().sequence, logged[1] + 1);
+}
+
+TEST(Tuning, ReachesAClothThatWasBuiltBeforeIt)
+{
+  const SimulationParams params = untearable();
+  SimulationLoop::Options options;
+  options.pace = Pace::STEP;
+  SimulationLoop loop(std::make_unique<Simulation>(hanging(params)), options,
+                      [](const Simulation&, const StepReport&) {});
+  const Simulation other = hanging(params, 9);
+  SimulationParams later = params;
+  later.material.stiffness = 45.0;
+  loop.call([&](Simulation& simulation) { simulation.tune(tuningOf(later)); });
+
+  loop.takeCloth(other);
+
+  Simulation expected = hanging(later, 9);
+  run(expected, 100);
+  EXPECT_EQ(loop.step(100).state_hash, expected.stateHash());
 }
 
 }  // namespace
