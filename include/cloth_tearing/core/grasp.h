@@ -75,7 +75,7 @@ struct Grasp
   std::vector<Held> held;
   std::optional<DragTarget> target;  ///< none once it has arrived
   std::optional<Glide> glide;        ///< instead of a target; none once it has arrived
-  std::optional<PullUnderWay> pull;          ///< a drag that is watched
+  std::optional<PullUnderWay> pull;  ///< a drag that is watched
   double force_limit = 0.0;          ///< above this smoothed force it lets go [N]; 0 = never
   std::string followed;  ///< name of the frame that it follows: others may not move it; or empty
   std::string frame_problem;  ///< why it does not follow it now; empty = all is well

@@ -115,8 +115,8 @@ public:
   /// Looks again at what hangs on one grasp alone: to be asked when pins have come or gone.
   void findLoosePieces(const Cloth& cloth, const std::string& reason);
 
-  /// Tells that all grasps, which came with a state, are there. Pulls go on under new numbers, since
-  /// nobody waits for them.
+  /// Tells that all grasps, which came with a state, are there. Pulls go on under new numbers,
+  /// since nobody waits for them.
   /// @param next_tear number of the first tear that would count
   void resume(std::uint64_t next_tear);
 
