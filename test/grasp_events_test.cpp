@@ -2,8 +2,6 @@
 // each is told once.
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "cloth_tearing/core/checks.h"
 #include "scenes.h"
 
@@ -11,19 +9,6 @@ namespace cloth
 {
 namespace
 {
-
-std::string refusalOf(const std::function<void()>& request)
-{
-  try
-  {
-    request();
-  }
-  catch (const Refusal& refusal)
-  {
-    return refusal.what();
-  }
-  return "it was granted";
-}
 
 GraspRequest requestAt(const Vec3d& point, double radius)
 {

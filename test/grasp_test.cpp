@@ -23,19 +23,6 @@ double angleBetween(const Quatd& a, const Quatd& b)
   return 2.0 * std::acos(std::min(1.0, std::abs(a.coeffs().dot(b.coeffs()))));
 }
 
-std::string refusalOf(const std::function<void()>& request)
-{
-  try
-  {
-    request();
-  }
-  catch (const Refusal& refusal)
-  {
-    return refusal.what();
-  }
-  return "it was granted";
-}
-
 // A sheet of 1 m with particles 0.1 m apart: particle 11 r + c at (c / 10 - 0.5, -r / 10, 0).
 class GraspedSheet : public ::testing::Test
 {

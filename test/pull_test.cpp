@@ -3,27 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "scenes.h"
 
 namespace cloth
 {
 namespace
 {
-
-std::string refusalOf(const std::function<void()>& request)
-{
-  try
-  {
-    request();
-  }
-  catch (const Refusal& refusal)
-  {
-    return refusal.what();
-  }
-  return "it was granted";
-}
 
 /// A curtain of 0.3 m, pinned above, with a gripper at the middle of its lower border.
 class Pulled : public WithBothSolvers

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -259,6 +260,20 @@ inline auto bothSolvers()
 inline std::string solverName(const ::testing::TestParamInfo<SolverKind>& info)
 {
   return nameOf(info.param);
+}
+
+/// Why a request was refused.
+inline std::string refusalOf(const std::function<void()>& request)
+{
+  try
+  {
+    request();
+  }
+  catch (const Refusal& refusal)
+  {
+    return refusal.what();
+  }
+  return "it was granted";
 }
 
 }  // namespace cloth

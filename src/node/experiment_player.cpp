@@ -15,12 +15,14 @@
 #include <exception>
 #include <functional>
 #include <future>
+#include <stdexcept>
 #include <thread>
 
 #include "cloth_tearing/core/simulation.h"
 #include "cloth_tearing/experiments/plays.h"
 #include "cloth_tearing/node/cloth_markers.h"
 #include "cloth_tearing/node/conversions.h"
+#include "cloth_tearing/node/params_loader.h"
 #include "cloth_tearing/node/player_params.h"
 #include "cloth_tearing/node/tear_words.h"
 
@@ -275,17 +277,7 @@ int run()
   XmlRpc::XmlRpcValue tree;
   ros::param::get(node.getNamespace(), tree);
   const LoadedPlayerParams loaded = loadPlayerParams(tree);
-  if (!loaded.problems.empty())
-  {
-    std::string all;
-    for (const std::string& problem : loaded.problems)
-    {
-      all += "\n  " + problem;
-    }
-    ROS_FATAL_STREAM(loaded.problems.size()
-                     << " wrong parameters of " << node.getNamespace() << ":" << all);
-    return 1;
-  }
+  refuseWrongParams(node.getNamespace(), loaded.problems);
   ExperimentPlayer player(node, loaded.params);
   return playUntilToldToEnd(player, loaded.params.exit_when_done);
 }
@@ -302,5 +294,13 @@ int main(int argc, char** argv)
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   ros::init(argc, argv, "experiment_player");
-  return cloth_tearing::run();
+  try
+  {
+    return cloth_tearing::run();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
 }

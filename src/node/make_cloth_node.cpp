@@ -16,16 +16,7 @@ std::unique_ptr<ClothNode> makeClothNode(const ros::NodeHandle& node)
   XmlRpc::XmlRpcValue tree;
   ros::param::get(node.getNamespace(), tree);
   const LoadedParams loaded = loadParams(tree);
-  if (!loaded.problems.empty())
-  {
-    std::string all = std::to_string(loaded.problems.size()) + " wrong parameters of " +
-                      node.getNamespace() + ":";
-    for (const std::string& problem : loaded.problems)
-    {
-      all += "\n  " + problem;
-    }
-    throw std::invalid_argument(all);
-  }
+  refuseWrongParams(node.getNamespace(), loaded.problems);
   try
   {
     return std::make_unique<ClothNode>(node, loaded.params);

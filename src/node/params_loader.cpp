@@ -1,6 +1,9 @@
 // Carries parameters from the parameter server into the node and names everything wrong with them.
 #include "cloth_tearing/node/params_loader.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "cloth_tearing/node/param_reader.h"
 
 namespace cloth_tearing
@@ -242,6 +245,20 @@ LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree)
   const std::vector<std::string> unusable = problems(loaded.params);
   loaded.problems.insert(loaded.problems.end(), unusable.begin(), unusable.end());
   return loaded;
+}
+
+void refuseWrongParams(const std::string& name_space, const std::vector<std::string>& problems)
+{
+  if (problems.empty())
+  {
+    return;
+  }
+  std::string all = std::to_string(problems.size()) + " wrong parameters of " + name_space + ":";
+  for (const std::string& problem : problems)
+  {
+    all += "\n  " + problem;
+  }
+  throw std::invalid_argument(all);
 }
 
 std::vector<std::string> parameterNames()

@@ -27,6 +27,9 @@ struct LoadedParams
 /// @param tree the node's private namespace: a struct, or an invalid value if there is none
 LoadedParams loadParams(const XmlRpc::XmlRpcValue& tree);
 
+/// @throws std::invalid_argument naming all `problems` of the parameters in a namespace, if any
+void refuseWrongParams(const std::string& name_space, const std::vector<std::string>& problems);
+
 /// The names of all parameters, group/entry, ascending.
 std::vector<std::string> parameterNames();
 
