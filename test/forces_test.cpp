@@ -102,16 +102,13 @@ TEST(Wind, PressesOnNoMoreThanTheRestArea)
   EXPECT_LT((totalForce(cloth, windOnly(Vec3d(0, 0, 5), 0.5)) - 0.5 * force).norm(), 1e-7);
 }
 
-TEST(Wind, LeavesHeldParticlesAlone)
+TEST(Wind, PressesOnHeldClothToo)
 {
   Cloth cloth = triangle(0.2);
+  const Vec3d free = totalForce(cloth, windOnly(Vec3d(0, 0, 5), 0.5));
   cloth.attach({ 1 }, { Attachment::Kind::PIN, 0 });
-  std::vector<Vec3> acceleration;
 
-  outerAccelerations(cloth, windOnly(Vec3d(0, 0, 5), 0.5), acceleration);
-
-  EXPECT_EQ(acceleration[1], Vec3::Zero().eval());
-  EXPECT_GT(acceleration[0].z(), 0);
+  EXPECT_EQ(totalForce(cloth, windOnly(Vec3d(0, 0, 5), 0.5)), free) << "whoever holds it feels it";
 }
 
 TEST(Wind, CarriesFreeClothAlongUntilItMovesWithTheAir)

@@ -55,9 +55,10 @@ void waitForEnd(const sigset_t& signals)
 /// @return exit status
 int run(const sigset_t& signals)
 {
+  const ros::NodeHandle node("~");  // outlives the complaint: without one, roscpp is mute
   try
   {
-    const auto cloth = cloth_tearing::makeClothNode(ros::NodeHandle("~"));
+    const auto cloth = cloth_tearing::makeClothNode(node);
     waitForEnd(signals);
   }
   catch (const std::exception& error)

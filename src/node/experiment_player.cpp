@@ -277,7 +277,15 @@ int run()
   XmlRpc::XmlRpcValue tree;
   ros::param::get(node.getNamespace(), tree);
   const LoadedPlayerParams loaded = loadPlayerParams(tree);
-  refuseWrongParams(node.getNamespace(), loaded.problems);
+  try
+  {
+    refuseWrongParams(node.getNamespace(), loaded.problems);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
   ExperimentPlayer player(node, loaded.params);
   return playUntilToldToEnd(player, loaded.params.exit_when_done);
 }
@@ -294,13 +302,5 @@ int main(int argc, char** argv)
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   ros::init(argc, argv, "experiment_player");
-  try
-  {
-    return cloth_tearing::run();
-  }
-  catch (const std::invalid_argument& error)
-  {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
+  return cloth_tearing::run();
 }
