@@ -1,0 +1,120 @@
+// The rviz display that draws ~surface.
+#pragma once
+
+#ifndef Q_MOC_RUN
+#include <ros/subscriber.h>
+#include <rviz/message_filter_display.h>
+
+#include <memory>
+#include <string>
+
+#include "cloth_tearing/ClothSurface.h"
+#include "cloth_tearing/GraspStates.h"
+#include "cloth_tearing/rviz/cloth_visual.h"
+#include "cloth_tearing/rviz/force_arrows.h"
+#include "cloth_tearing/rviz/strain_legend.h"
+#include "cloth_tearing/rviz/surface_mesh.h"
+#endif
+
+namespace rviz
+{
+class BoolProperty;
+class ColorProperty;
+class EnumProperty;
+class FloatProperty;
+class StringProperty;
+}  // namespace rviz
+
+namespace cloth_tearing
+{
+
+/// Draws a cloth with its texture or the colours of its strain, what is torn, weak and held, and
+/// the forces on grippers, which it reads from grasp_states beside the surface's topic. A message
+/// that makes no sense turns the status red and changes nothing.
+class ClothDisplay : public rviz::MessageFilterDisplay<ClothSurface>
+{
+  Q_OBJECT
+public:
+  ClothDisplay();
+  ~ClothDisplay() override;
+
+  void reset() override;
+  void update(float wall_dt, float ros_dt) override;
+
+protected:
+  void onInitialize() override;
+  void subscribe() override;
+  void unsubscribe() override;
+
+private Q_SLOTS:
+  void updateStyle();
+  void updateImage();
+  void updateForces();
+
+private:
+  /// A part that can be switched off, with its colour and size.
+  struct StrokeProperties
+  {
+    rviz::BoolProperty* shown;
+    rviz::ColorProperty* color;
+    rviz::FloatProperty* size;
+
+    StrokeStyle style() const;
+  };
+
+  /// What is known of who sends.
+  enum class Source
+  {
+    SUBSCRIBED,
+    SILENT,
+    SENDING,
+    GONE
+  };
+
+  void tellImage();
+  void addColoring();
+  void addParts();
+  void addForces();
+  StrokeProperties addStroke(const QString& name, const QColor& color, const QString& size_name,
+                             float size, const QString& description);
+  ClothStyle style() const;
+
+  void processMessage(const ClothSurface::ConstPtr& message) override;
+  void place(const ClothSurface& message);
+  void refuse(const std::string& reason);
+  void watchSource();
+  void takeGrasps(const GraspStates::ConstPtr& message);
+  std::vector<ForceArrows::Force> forcesInFixedFrame() const;
+
+  rviz::EnumProperty* coloring_;
+  rviz::StringProperty* image_;
+  rviz::FloatProperty* low_strain_;
+  rviz::FloatProperty* high_strain_;
+  StrainLegend* legend_;
+  rviz::ColorProperty* plain_color_;
+  rviz::BoolProperty* wireframe_;
+  rviz::ColorProperty* wireframe_color_;
+  StrokeProperties torn_edges_;
+  StrokeProperties weak_points_;
+  StrokeProperties held_;
+  rviz::ColorProperty* pinned_color_;
+  rviz::BoolProperty* forces_;
+  rviz::ColorProperty* force_color_;
+  rviz::FloatProperty* force_scale_;
+
+  std::unique_ptr<ClothVisual> visual_;
+  std::unique_ptr<ForceArrows> arrows_;
+  SurfaceMesh mesh_;
+  ClothSurface::ConstPtr surface_;  ///< that mesh_ has taken; none = nothing is shown
+  bool new_triangles_ = true;       ///< since the last drawing
+  bool placed_ = false;             ///< its frame is known
+  bool drawn_ = true;
+  std::string image_problem_;  ///< of the texture's image; empty = none
+  std::string problem_;        ///< of the last message; empty = none
+
+  ros::Subscriber grasp_subscriber_;
+  GraspStates::ConstPtr grasps_;
+  Source source_ = Source::SUBSCRIBED;
+};
+
+}  // namespace cloth_tearing

@@ -1,0 +1,387 @@
+// The rviz display that draws ~surface.
+#include "cloth_tearing/rviz/cloth_display.h"
+
+#include <ros/console.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/string_property.h>
+
+#include <algorithm>
+#include <pluginlib/class_list_macros.hpp>
+#include <utility>
+
+#include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/rviz/cloth_texture.h"
+
+namespace cloth_tearing
+{
+
+using rviz::StatusProperty;
+
+namespace
+{
+
+constexpr float LEAST_RANGE = 1e-4F;  // between the ends of the strain range [-]
+constexpr float LEAST_SIZE = 1e-5F;   // of lines and points [m]
+constexpr float MOST_LENGTH = 1e9F;   // of a vector from outside
+
+const char* const DEFAULT_IMAGE = "package://cloth_tearing/media/woven_checker.png";
+
+/// Neither too large nor NaN.
+bool drawable(const Ogre::Vector3& vector)
+{
+  return vector.squaredLength() < MOST_LENGTH * MOST_LENGTH;
+}
+
+/// The topic of the same node.
+std::string graspTopic(const std::string& surface_topic)
+{
+  return surface_topic.substr(0, surface_topic.rfind('/') + 1) + "grasp_states";
+}
+
+}  // namespace
+
+// -- properties ----------------------------------------------------------------------------------
+
+ClothDisplay::ClothDisplay()
+{
+  addColoring();
+  addParts();
+  addForces();
+}
+
+ClothDisplay::~ClothDisplay() = default;
+
+void ClothDisplay::addColoring()
+{
+  coloring_ = new rviz::EnumProperty("Coloring", "Texture", "What the cloth is covered with.", this,
+                                     SLOT(updateStyle()));
+  coloring_->addOption("Texture", static_cast<int>(ClothStyle::Coloring::TEXTURE));
+  coloring_->addOption("Strain", static_cast<int>(ClothStyle::Coloring::STRAIN));
+  coloring_->addOption("Plain", static_cast<int>(ClothStyle::Coloring::PLAIN));
+  image_ = new rviz::StringProperty("Texture Image", DEFAULT_IMAGE,
+                                    "package://PACKAGE/PATH or /absolute/path of an image.",
+                                    coloring_, SLOT(updateImage()), this);
+  low_strain_ = new rviz::FloatProperty("Lowest Strain", 0.0F, "Strain that is shown blue [-].",
+                                        coloring_, SLOT(updateStyle()), this);
+  high_strain_ = new rviz::FloatProperty("Highest Strain", 0.2F, "Strain that is shown red [-].",
+                                         coloring_, SLOT(updateStyle()), this);
+  legend_ = new StrainLegend(coloring_);
+  plain_color_ =
+      new rviz::ColorProperty("Plain Color", QColor(217, 204, 179), "Of the plain cloth.",
+                              coloring_, SLOT(updateStyle()), this);
+}
+
+void ClothDisplay::addParts()
+{
+  wireframe_ = new rviz::BoolProperty("Wireframe", false, "The edges of the triangles.", this,
+                                      SLOT(updateStyle()));
+  wireframe_->setDisableChildrenIfFalse(true);
+  wireframe_color_ = new rviz::ColorProperty("Color", QColor(40, 42, 48), "Of the edges.",
+                                             wireframe_, SLOT(updateStyle()), this);
+  torn_edges_ =
+      addStroke("Torn Edges", QColor(217, 13, 89), "Width", 0.004F, "Edges that a tear opened.");
+  weak_points_ = addStroke("Weak Points", QColor(255, 217, 0), "Size", 0.012F,
+                           "Where a tear ends and may run on.");
+  held_ = addStroke("Held Patches", QColor(26, 166, 64), "Size", 0.016F,
+                    "Particles that a gripper holds, and pinned ones.");
+  pinned_color_ =
+      new rviz::ColorProperty("Pinned Color", QColor(60, 70, 90), "Of pinned particles.",
+                              held_.shown, SLOT(updateStyle()), this);
+}
+
+void ClothDisplay::addForces()
+{
+  forces_ = new rviz::BoolProperty(
+      "Forces", true, "Force of the cloth on each gripper, from grasp_states beside the topic.",
+      this, SLOT(updateForces()));
+  forces_->setDisableChildrenIfFalse(true);
+  force_color_ = new rviz::ColorProperty("Color", QColor(225, 95, 20), "Of the arrows.", forces_,
+                                         SLOT(updateForces()), this);
+  force_scale_ = new rviz::FloatProperty("Scale", 0.1F, "Length of an arrow [m/N].", forces_,
+                                         SLOT(updateForces()), this);
+  force_scale_->setMin(0.0F);
+}
+
+ClothDisplay::StrokeProperties ClothDisplay::addStroke(const QString& name, const QColor& color,
+                                                       const QString& size_name, float size,
+                                                       const QString& description)
+{
+  StrokeProperties stroke;
+  stroke.shown = new rviz::BoolProperty(name, true, description, this, SLOT(updateStyle()));
+  stroke.shown->setDisableChildrenIfFalse(true);
+  stroke.color =
+      new rviz::ColorProperty("Color", color, "", stroke.shown, SLOT(updateStyle()), this);
+  stroke.size = new rviz::FloatProperty(size_name, size, "Width or diameter [m].", stroke.shown,
+                                        SLOT(updateStyle()), this);
+  stroke.size->setMin(LEAST_SIZE);
+  return stroke;
+}
+
+StrokeStyle ClothDisplay::StrokeProperties::style() const
+{
+  return { shown->getBool(), size->getFloat(), color->getOgreColor() };
+}
+
+ClothStyle ClothDisplay::style() const
+{
+  ClothStyle style;
+  style.coloring = static_cast<ClothStyle::Coloring>(coloring_->getOptionInt());
+  const float low = low_strain_->getFloat();
+  style.strain_range = { low, std::max(high_strain_->getFloat(), low + LEAST_RANGE) };
+  style.plain_color = plain_color_->getOgreColor();
+  style.wireframe = wireframe_->getBool();
+  style.wireframe_color = wireframe_color_->getOgreColor();
+  style.torn_edges = torn_edges_.style();
+  style.weak_points = weak_points_.style();
+  style.held = held_.style();
+  style.pinned_color = pinned_color_->getOgreColor();
+  return style;
+}
+
+void ClothDisplay::updateStyle()
+{
+  const ClothStyle wanted = style();
+  image_->setHidden(wanted.coloring != ClothStyle::Coloring::TEXTURE);
+  for (rviz::Property* property :
+       { static_cast<rviz::Property*>(low_strain_), static_cast<rviz::Property*>(high_strain_),
+         static_cast<rviz::Property*>(legend_) })
+  {
+    property->setHidden(wanted.coloring != ClothStyle::Coloring::STRAIN);
+  }
+  plain_color_->setHidden(wanted.coloring != ClothStyle::Coloring::PLAIN);
+  legend_->setRange(wanted.strain_range);
+  if (visual_)
+  {
+    visual_->setStyle(wanted);
+    drawn_ = false;
+  }
+}
+
+void ClothDisplay::updateImage()
+{
+  if (!visual_)
+  {
+    return;
+  }
+  image_problem_.clear();
+  QImage image;
+  try
+  {
+    image = readImage(image_->getStdString());
+  }
+  catch (const cloth::Refusal& refusal)
+  {
+    image_problem_ = refusal.what();
+  }
+  visual_->setImage(image);
+  tellImage();
+  context_->queueRender();
+}
+
+void ClothDisplay::tellImage()
+{
+  const bool fine = image_problem_.empty();
+  setStatusStd(fine ? StatusProperty::Ok : StatusProperty::Error, "Texture",
+               fine ? "OK" : image_problem_);
+}
+
+void ClothDisplay::updateForces()
+{
+  drawn_ = false;
+}
+
+// -- messages ------------------------------------------------------------------------------------
+
+void ClothDisplay::onInitialize()
+{
+  MFDClass::onInitialize();
+  visual_ = std::make_unique<ClothVisual>(context_->getSceneManager(), scene_node_);
+  arrows_ = std::make_unique<ForceArrows>(context_->getSceneManager(), scene_node_);
+  updateStyle();
+  updateImage();
+}
+
+void ClothDisplay::subscribe()
+{
+  MFDClass::subscribe();
+  source_ = Source::SUBSCRIBED;
+  if (isEnabled() && !topic_property_->getTopicStd().empty())
+  {
+    grasp_subscriber_ = update_nh_.subscribe(graspTopic(topic_property_->getTopicStd()), 2,
+                                             &ClothDisplay::takeGrasps, this);
+  }
+}
+
+void ClothDisplay::unsubscribe()
+{
+  grasp_subscriber_.shutdown();
+  MFDClass::unsubscribe();
+}
+
+/// Subscribes anew: what is latched comes again, and a cloth at rest is not lost.
+void ClothDisplay::reset()
+{
+  unsubscribe();
+  MFDClass::reset();
+  surface_.reset();
+  grasps_.reset();
+  problem_.clear();
+  if (visual_)
+  {
+    visual_->hide();
+    arrows_->draw({}, 0.0F, Ogre::ColourValue::White);
+    tellImage();  // its status was cleared as well
+  }
+  subscribe();
+}
+
+void ClothDisplay::processMessage(const ClothSurface::ConstPtr& message)
+{
+  try
+  {
+    new_triangles_ |= mesh_.take(*message);
+  }
+  catch (const cloth::Refusal& refusal)
+  {
+    refuse(refusal.what());
+    return;
+  }
+  problem_.clear();
+  surface_ = message;
+  drawn_ = false;
+  setStatus(StatusProperty::Ok, "Surface",
+            QString("%1 triangles, %2 particles, %3 torn edges")
+                .arg(message->triangles.size() / 3)
+                .arg(message->positions.size() / 3)
+                .arg(message->torn_edges.size() / 2));
+  place(*message);
+}
+
+void ClothDisplay::refuse(const std::string& reason)
+{
+  setStatusStd(StatusProperty::Error, "Surface", reason);
+  if (reason != problem_)  // not thirty times a second
+  {
+    ROS_WARN_STREAM("display \"" << getNameStd() << "\" drops a message: " << reason);
+    problem_ = reason;
+  }
+}
+
+/// A cloth whose place is not known is not shown at all.
+void ClothDisplay::place(const ClothSurface& message)
+{
+  geometry_msgs::Pose origin;
+  origin.position = message.origin;
+  origin.orientation.w = 1.0;
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  placed_ = context_->getFrameManager()->transform(message.header, origin, position, orientation);
+  if (placed_)
+  {
+    visual_->setPose(position, orientation);
+    setStatus(StatusProperty::Ok, "Transform", "OK");
+  }
+  else
+  {
+    std::string problem;
+    context_->getFrameManager()->transformHasProblems(message.header.frame_id, message.header.stamp,
+                                                      problem);
+    setStatusStd(StatusProperty::Error, "Transform", problem);
+  }
+}
+
+void ClothDisplay::takeGrasps(const GraspStates::ConstPtr& message)
+{
+  grasps_ = message;
+  drawn_ = false;
+}
+
+// -- drawing -------------------------------------------------------------------------------------
+
+void ClothDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
+{
+  watchSource();
+  if (drawn_)
+  {
+    return;
+  }
+  drawn_ = true;
+  if (surface_ && placed_)
+  {
+    visual_->draw(*surface_, mesh_, std::exchange(new_triangles_, false));
+  }
+  else
+  {
+    visual_->hide();
+  }
+  arrows_->draw(forcesInFixedFrame(), force_scale_->getFloat(), force_color_->getOgreColor());
+  context_->queueRender();
+}
+
+/// A node that is gone leaves its cloth as it was last.
+void ClothDisplay::watchSource()
+{
+  Source source = Source::SENDING;
+  if (messages_received_ == 0)
+  {
+    source = Source::SILENT;
+  }
+  else if (sub_.getSubscriber().getNumPublishers() == 0)
+  {
+    source = Source::GONE;
+  }
+  if (source == source_)
+  {
+    return;
+  }
+  source_ = source;
+  const QString count = QString::number(messages_received_);
+  switch (source)
+  {
+    case Source::SILENT:
+      setStatus(StatusProperty::Warn, "Topic", "No messages received");
+      break;
+    case Source::GONE:
+      setStatus(StatusProperty::Warn, "Topic",
+                "No messages any more: nobody publishes; shown is the last of " + count);
+      grasps_.reset();
+      drawn_ = false;
+      break;
+    default:
+      setStatus(StatusProperty::Ok, "Topic", count + " messages received");
+  }
+}
+
+std::vector<ForceArrows::Force> ClothDisplay::forcesInFixedFrame() const
+{
+  std::vector<ForceArrows::Force> forces;
+  Ogre::Vector3 origin;
+  Ogre::Quaternion axes;
+  if (!forces_->getBool() || !grasps_ ||
+      !context_->getFrameManager()->getTransform(grasps_->header.frame_id, ros::Time(), origin,
+                                                 axes))
+  {
+    return forces;
+  }
+  for (const GraspState& grasp : grasps_->grasps)
+  {
+    const geometry_msgs::Point& x = grasp.pose.position;
+    const geometry_msgs::Vector3& f = grasp.wrench.force;
+    const Ogre::Vector3 position(x.x, x.y, x.z);
+    const Ogre::Vector3 force(f.x, f.y, f.z);
+    if (drawable(position) && drawable(force))
+    {
+      forces.push_back({ origin + axes * position, axes * force });
+    }
+  }
+  return forces;
+}
+
+}  // namespace cloth_tearing
+
+PLUGINLIB_EXPORT_CLASS(cloth_tearing::ClothDisplay, rviz::Display)
