@@ -4,6 +4,7 @@
 #include <cloth_tearing/GraspEvents.h>
 #include <cloth_tearing/GraspStates.h>
 #include <cloth_tearing/GraspTargets.h>
+#include <cloth_tearing/SimulationStatus.h>
 #include <cloth_tearing/client/cloth_client.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -443,11 +444,36 @@ TEST_F(GraspInterface, AStreamedTargetIsReachedInTheTimeSinceTheLast)
   EXPECT_FALSE(stateOf(cloth_, grasp).moving);
 }
 
+TEST_F(GraspInterface, AStreamMakesNoTopicFasterThanItsRate)
+{
+  const std::uint64_t grasp = cloth_.grasp(at(0.0, BOTTOM), 0.05).grasp_id;
+  ros::Publisher targets = ros::NodeHandle().advertise<GraspTargets>("/cloth/grasp_targets", 10);
+  ASSERT_TRUE(isSoon([&] { return targets.getNumSubscribers() > 0; }));
+  Collector<SimulationStatus> heard("/cloth/status");
+  heard.first();
+  const ros::WallTime begin = ros::WallTime::now();
+  GraspTargets message;
+  message.header.frame_id = "world";
+  message.targets.resize(1);
+  message.targets[0].grasp_id = grasp;
+  for (int i = 0; i < 200; ++i)
+  {
+    message.targets[0].pose.position = at(1e-5 * i, BOTTOM);
+    targets.publish(message);
+    cloth_.step(1);
+  }
+  const std::size_t statuses = heard.all().size();
+  const double elapsed = (ros::WallTime::now() - begin).toSec();
+  EXPECT_LE(statuses, 10.0 * elapsed + 3.0) << "in " << elapsed << " s, at 10 Hz";
+}
+
 TEST_F(GraspInterface, AGraspFollowsItsFrameAndTellsWhenThatIsLost)
 {
   const std::uint64_t grasp = graspWith("hand", cloth_, at(0.0, BOTTOM));
   EXPECT_EQ(stateOf(cloth_, grasp).gripper_frame, "hand");
   expectRefused([&] { cloth_.drag(grasp, at(0.0, 1.0), 0.1); }, "follows the frame \"hand\"");
+  EXPECT_EQ(cloth_.predictPull(pullDown(grasp, 0.01), PATIENCE).outcome, PullResult::ARRIVED)
+      << "as if nothing but the pull moved it";
 
   EXPECT_TRUE(isSoon(
       [&]

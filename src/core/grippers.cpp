@@ -110,6 +110,11 @@ GraspTaken Grippers::take(Cloth& cloth, const GraspRequest& request, double max_
   return taken;
 }
 
+bool Grippers::has(std::uint64_t id) const
+{
+  return std::any_of(grasps_.begin(), grasps_.end(), [id](const Grasp& g) { return g.id == id; });
+}
+
 const Grasp& Grippers::find(std::uint64_t id) const
 {
   const auto found =
@@ -233,6 +238,14 @@ void Grippers::frameFound(std::uint64_t grasp)
     found.frame_problem.clear();
     tell(found, GraspEventKind::FRAME_FOUND, "the frame \"" + found.followed + "\" is back");
   }
+}
+
+void Grippers::stopFollowing(std::uint64_t grasp)
+{
+  Grasp& freed = following(grasp);
+  freed.followed.clear();
+  freed.frame_problem.clear();
+  freed.glide.reset();
 }
 
 std::uint64_t Grippers::pull(const PullRequest& request, std::uint64_t next_tear)

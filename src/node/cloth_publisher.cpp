@@ -130,8 +130,8 @@ void ClothPublisher::touch()
 {
   ++version_;
   const std::lock_guard<std::mutex> lock(mutex_);
-  status_.wanted = true;
-  grasp_states_.wanted = true;
+  status_.changed = true;
+  grasp_states_.changed = true;
   urgent_ = true;
   wake_.notify_all();
 }
@@ -168,44 +168,45 @@ void ClothPublisher::run()
   {
     wake_.wait_until(lock, nextTurn(), [this] { return stopping_ || urgent_; });
     urgent_ = false;
-    const bool markers_wanted = std::exchange(markers_.wanted, false);
-    const bool surface_wanted = std::exchange(surface_.wanted, false);
-    const bool status_wanted = std::exchange(status_.wanted, false);
-    const bool grasps_wanted = std::exchange(grasp_states_.wanted, false);
     lock.unlock();
     bool missed = false;
     try
     {
-      grasps_.openWrenches();
-      const Clock::time_point now = Clock::now();
-      const bool markers = takeTurn(markers_, markers_wanted, false, now);
-      const bool surface = takeTurn(surface_, surface_wanted, false, now);
-      if (markers || surface)
-      {
-        publishSnapshot(markers, surface);
-      }
-      if (takeTurn(status_, status_wanted, true, now))
-      {
-        publishStatus();
-      }
-      if (diagnostics_.isDue())
-      {
-        diagnostics_.publish(statusSource());
-      }
-      if (takeTurn(grasp_states_, grasps_wanted, false, now))
-      {
-        publishGrasps();
-      }
+      takeTurns();
     }
     catch (const cloth::Busy&)  // a step takes longer than the patience: another turn comes
     {
       missed = true;
     }
     lock.lock();
-    markers_.wanted |= missed && markers_wanted;
-    surface_.wanted |= missed && surface_wanted;
-    status_.wanted |= missed && status_wanted;
-    grasp_states_.wanted |= missed && grasps_wanted;
+    for (Channel* channel : { &markers_, &surface_, &status_, &grasp_states_ })
+    {
+      channel->wanted |= missed;  // nobody knows whose turn it was
+    }
+  }
+}
+
+void ClothPublisher::takeTurns()
+{
+  grasps_.openWrenches();
+  const Clock::time_point now = Clock::now();
+  const bool markers = takeTurn(markers_, false, now);
+  const bool surface = takeTurn(surface_, false, now);
+  if (markers || surface)
+  {
+    publishSnapshot(markers, surface);
+  }
+  if (takeTurn(status_, true, now))
+  {
+    publishStatus();
+  }
+  if (diagnostics_.isDue())
+  {
+    diagnostics_.publish(statusSource());
+  }
+  if (takeTurn(grasp_states_, false, now))
+  {
+    publishGrasps();
   }
 }
 
@@ -231,24 +232,33 @@ bool ClothPublisher::heard(const Channel& channel) const
   return channel.topic.heard() || (&channel == &grasp_states_ && grasps_.heard());
 }
 
-/// Whether to publish now; sets when to look again.
-bool ClothPublisher::takeTurn(Channel& channel, bool wanted, bool unchanged_too,
-                              Clock::time_point now) const
+/// Whether to publish now; sets when to look again. What changed may go before its turn, but never
+/// sooner after the last time than its rate says.
+bool ClothPublisher::takeTurn(Channel& channel, bool unchanged_too, Clock::time_point now)
 {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (!heard(channel))
   {
+    channel.wanted = false;
+    channel.changed = false;
     return false;
   }
   const bool on_time = now >= channel.due;
-  if (on_time)
+  const bool rested = now >= channel.last + channel.period;
+  const bool news = unchanged_too || channel.seen != version_;
+  const bool publish = channel.wanted || (on_time && news) || (rested && channel.changed);
+  channel.due = on_time ? channel.due + channel.period : channel.due;
+  if (channel.due < now || (publish && !on_time))  // nobody listened for a while, or it goes early
   {
-    channel.due += channel.period;
-    if (channel.due < now)  // nobody listened for a while
-    {
-      channel.due = now + channel.period;
-    }
+    channel.due = now + channel.period;
   }
-  return wanted || (on_time && (unchanged_too || channel.seen != version_));
+  if (publish)
+  {
+    channel.last = now;
+    channel.wanted = false;
+    channel.changed = false;
+  }
+  return publish;
 }
 
 void ClothPublisher::publishSnapshot(bool markers, bool surface)

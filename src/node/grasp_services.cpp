@@ -2,6 +2,7 @@
 #include "cloth_tearing/node/grasp_services.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/refusal.h"
@@ -158,6 +159,10 @@ void GraspServices::steer(cloth::Simulation& simulation, const GraspTargets& mes
         before == steered_at_.end() ? LONGEST_GLIDE : simulation.time() - before->second;
     simulation.steer(id, poses[i], std::min(since, LONGEST_GLIDE));
     steered_at_[id] = simulation.time();
+  }
+  for (auto steered = steered_at_.begin(); steered != steered_at_.end();)
+  {
+    steered = simulation.hasGrasp(steered->first) ? std::next(steered) : steered_at_.erase(steered);
   }
 }
 

@@ -14,6 +14,7 @@ namespace cloth_tearing
 namespace
 {
 
+const std::string ENDING = "the simulation is ending";
 constexpr std::chrono::milliseconds FEEDBACK(50);  // 20 Hz
 constexpr std::chrono::milliseconds IDLE(1000);
 constexpr std::size_t MOST_PREDICTIONS = 4;  // at once
@@ -78,10 +79,21 @@ void abort(GoalHandle& handle, const std::string& reason)
   handle.setAborted(result, reason);
 }
 
+template <class GoalHandle>
+void publishProgress(GoalHandle& handle, const cloth::Simulation& simulation, std::uint64_t pull)
+{
+  for (const cloth::PullProgress& progress : simulation.pulls())
+  {
+    if (progress.pull == pull)
+    {
+      handle.publishFeedback(toFeedback(progress, simulation));
+    }
+  }
+}
+
 }  // namespace
 
-// -- ~pull
-// -----------------------------------------------------------------------------------------
+// -- ~pull ----------------------------------------------------------------------------------------
 
 PullServer::PullServer(const NodeContext& context, NewestNumber& ends)
     : context_(context)
@@ -110,11 +122,15 @@ void PullServer::stop()
   {
     thread_.join();
   }
-  for (auto& goal : goals_)
+  std::map<std::uint64_t, GoalHandle> left;
   {
-    abort(goal.second, "the simulation is ending");
+    const std::lock_guard<std::mutex> lock(mutex_);
+    left.swap(goals_);
   }
-  goals_.clear();
+  for (auto& goal : left)
+  {
+    abort(goal.second, ENDING);
+  }
 }
 
 /// The lock is held from before the pull begins until it is known here: it may end at once.
@@ -130,7 +146,7 @@ void PullServer::onGoal(GoalHandle handle)
         const std::lock_guard<std::mutex> lock(mutex_);
         if (stopping_)
         {
-          throw cloth::Refusal("the simulation is ending");
+          throw cloth::Refusal(ENDING);
         }
         if (isCancelled(handle))
         {
@@ -144,6 +160,7 @@ void PullServer::onGoal(GoalHandle handle)
             [&](cloth::Simulation& simulation) { return beginPull(simulation, goal, to_cloth); });
         handle.setAccepted();
         goals_[pull] = handle;
+        ends_.wake();
       });
   if (!reason.empty())
   {
@@ -153,31 +170,28 @@ void PullServer::onGoal(GoalHandle handle)
   context_.publisher.touch();
 }
 
+/// It is run() that cancels: a simulation that is busy now is asked again.
 void PullServer::onCancel(GoalHandle handle)
 {
-  context_.requests.refusal("pull/cancel",
-                            [&]
-                            {
-                              const std::lock_guard<std::mutex> lock(mutex_);
-                              for (const auto& goal : goals_)
-                              {
-                                if (goal.second == handle)
-                                {
-                                  context_.loop.call([&goal](cloth::Simulation& simulation)
-                                                     { simulation.cancelPull(goal.first); });
-                                }
-                              }
-                            });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& goal : goals_)
+  {
+    if (goal.second == handle)
+    {
+      unwanted_.insert(goal.first);
+    }
+  }
+  ends_.wake();
 }
 
 void PullServer::run()
 {
   auto next_feedback = std::chrono::steady_clock::now();
-  std::uint64_t known = 0;
-  bool any = false;
+  std::uint64_t told = 0;
+  bool under_way = false;
   while (true)
   {
-    ends_.waitFor(known, any ? FEEDBACK : IDLE);
+    ends_.waitFor(told, under_way ? FEEDBACK : IDLE);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (stopping_)
     {
@@ -185,8 +199,8 @@ void PullServer::run()
     }
     try
     {
+      cancelPulls();
       tellEnds();
-      known = told_;
       const auto now = std::chrono::steady_clock::now();
       if (!goals_.empty() && now >= next_feedback)
       {
@@ -197,8 +211,26 @@ void PullServer::run()
     catch (const cloth::Busy&)  // another turn comes
     {
     }
-    any = !goals_.empty();
+    told = told_;
+    under_way = !goals_.empty();
   }
+}
+
+void PullServer::cancelPulls()
+{
+  if (unwanted_.empty())
+  {
+    return;
+  }
+  context_.loop.call(
+      [this](cloth::Simulation& simulation)
+      {
+        for (const std::uint64_t pull : unwanted_)
+        {
+          simulation.cancelPull(pull);
+        }
+      });
+  unwanted_.clear();
 }
 
 void PullServer::tellEnds()
@@ -245,8 +277,7 @@ void PullServer::tellProgress()
   }
 }
 
-// -- ~predict_pull
-// ---------------------------------------------------------------------------------
+// -- ~predict_pull --------------------------------------------------------------------------------
 
 PullPredictor::PullPredictor(const NodeContext& context)
     : context_(context)
@@ -272,7 +303,7 @@ void PullPredictor::stop()
   }
   for (auto& prediction : predictions)
   {
-    prediction->cancelled = true;
+    prediction->ending = true;
     prediction->thread.join();
   }
 }
@@ -288,6 +319,10 @@ void PullPredictor::onGoal(GoalHandle handle)
         const cloth::Pose to_cloth = context_.frames.toCloth(goal.header);
         auto copy = context_.loop.call([](cloth::Simulation& simulation)
                                        { return std::make_unique<cloth::Simulation>(simulation); });
+        if (goal.grasp_id != 0 && !copy->findGrasp(goal.grasp_id).followed.empty())
+        {
+          copy->stopFollowing(goal.grasp_id);  // what its frame will do is not known
+        }
         const std::uint64_t pull = beginPull(*copy, goal, to_cloth);
         start(handle, std::move(copy), pull);
       });
@@ -304,7 +339,7 @@ void PullPredictor::start(GoalHandle handle, std::unique_ptr<cloth::Simulation> 
   forgetOld();
   if (stopping_)
   {
-    throw cloth::Refusal("the simulation is ending");
+    throw cloth::Refusal(ENDING);
   }
   if (predictions_.size() >= MOST_PREDICTIONS)
   {
@@ -315,12 +350,20 @@ void PullPredictor::start(GoalHandle handle, std::unique_ptr<cloth::Simulation> 
   predictions_.push_back(std::make_unique<Prediction>());
   Prediction& prediction = *predictions_.back();
   prediction.handle = handle;
+  prediction.ends_before = copy->loggedPullEnds()[1];
   prediction.cancelled = isCancelled(handle);
   prediction.handle.setAccepted();
   prediction.thread = std::thread(
       [this, &prediction, pull, world = std::shared_ptr<cloth::Simulation>(std::move(copy))]
       {
-        predict(prediction, *world, pull);
+        try
+        {
+          predict(prediction, *world, pull);
+        }
+        catch (const std::exception& error)
+        {
+          abort(prediction.handle, error.what());
+        }
         prediction.over = true;
       });
 }
@@ -352,46 +395,49 @@ void PullPredictor::predict(Prediction& prediction, cloth::Simulation& copy,
                             std::uint64_t pull) const
 {
   setpriority(PRIO_PROCESS, 0, GIVING_WAY);  // on Linux: of this thread alone
-  const std::uint64_t before = copy.loggedPullEnds()[1];
   auto next_feedback = std::chrono::steady_clock::now() + FEEDBACK;
-  while (true)
+  while (!finished(prediction, copy, pull))
   {
+    if (prediction.ending)
+    {
+      abort(prediction.handle, ENDING);
+      return;
+    }
     if (prediction.cancelled)
     {
       copy.cancelPull(pull);
+      continue;
     }
-    else
+    const std::string fault = copy.step().fault;
+    if (!fault.empty())
     {
-      const std::string fault = copy.step().fault;
-      if (!fault.empty())
-      {
-        abort(prediction.handle, fault);
-        return;
-      }
-    }
-    for (const cloth::PullEnd& end : copy.pullEndsSince(before + 1, mostOf(0)))
-    {
-      if (end.progress.pull == pull)
-      {
-        PullResult result = toResult(end, copy, context_.placement);
-        result.grasp_id = prediction.handle.getGoal()->grasp_id;  // no other one exists
-        finish(prediction.handle, result);
-        return;
-      }
+      abort(prediction.handle, fault);
+      return;
     }
     const auto now = std::chrono::steady_clock::now();
     if (now >= next_feedback)
     {
-      for (const cloth::PullProgress& progress : copy.pulls())
-      {
-        if (progress.pull == pull)
-        {
-          prediction.handle.publishFeedback(toFeedback(progress, copy));
-        }
-      }
+      publishProgress(prediction.handle, copy, pull);
       next_feedback = now + FEEDBACK;
     }
   }
+}
+
+/// Tells the end of the pull. @return whether it has ended
+bool PullPredictor::finished(Prediction& prediction, const cloth::Simulation& copy,
+                             std::uint64_t pull) const
+{
+  for (const cloth::PullEnd& end : copy.pullEndsSince(prediction.ends_before + 1, mostOf(0)))
+  {
+    if (end.progress.pull == pull)
+    {
+      PullResult result = toResult(end, copy, context_.placement);
+      result.grasp_id = prediction.handle.getGoal()->grasp_id;  // no other one exists
+      finish(prediction.handle, result);
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace cloth_tearing

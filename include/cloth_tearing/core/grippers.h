@@ -81,6 +81,10 @@ public:
   /// Notes that it is back. @throws Refusal if there is no such grasp or it follows none
   void frameFound(std::uint64_t grasp);
 
+  /// From now on commands move it; it stands where it was to be last.
+  /// @throws Refusal if there is no such grasp or it follows none
+  void stopFollowing(std::uint64_t grasp);
+
   /// Begins a pull; the one before on the same grasp is cancelled.
   /// @param next_tear number of the first tear that would count
   /// @return its id
@@ -126,6 +130,8 @@ public:
   /// By ascending id. Tearing lets them follow its edits.
   std::vector<Grasp>& all() { return grasps_; }
   const std::vector<Grasp>& all() const { return grasps_; }
+
+  bool has(std::uint64_t id) const;
 
   /// @throws Refusal if there is no such grasp
   const Grasp& find(std::uint64_t id) const;

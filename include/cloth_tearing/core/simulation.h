@@ -160,6 +160,9 @@ public:
   /// Notes that it is back. @throws Refusal if there is no such grasp or it follows none
   void frameFound(std::uint64_t grasp);
 
+  /// Commands move it from now on. @throws Refusal if there is no such grasp or it follows none
+  void stopFollowing(std::uint64_t grasp) { grippers_.stopFollowing(grasp); }
+
   /// Begins a pull; the one before on the same grasp is cancelled. It is looked at in the end of
   /// each step, so that it ends in the very step in which its condition holds: see pullEndsSince().
   /// @return its id
@@ -215,6 +218,8 @@ public:
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
   const std::vector<Grasp>& grasps() const { return grippers_.all(); }
+
+  bool hasGrasp(std::uint64_t id) const { return grippers_.has(id); }
 
   /// @throws Refusal if there is no such grasp
   const Grasp& findGrasp(std::uint64_t id) const { return grippers_.find(id); }

@@ -72,8 +72,11 @@ public:
   /// To be told when commands may have changed something, on the loop's thread.
   void onCommands(const cloth::Simulation& simulation);
 
-  /// Something changed that should be seen at once.
+  /// Something changed that should be seen as soon as the rates allow.
   void touch();
+
+  /// Something changed that may be seen when its turn comes.
+  void note() { ++version_; }
 
   /// How often the simulation paused itself.
   std::uint64_t faults();
@@ -94,16 +97,19 @@ private:
     Clock::duration period;
     Clock::time_point due;
     std::uint64_t seen = 0;  ///< version that was published last
-    bool wanted = false;     ///< at once, even unchanged; guarded by mutex_
+    Clock::time_point last;  ///< when it was published last
+    bool wanted = false;     ///< at once, even unchanged: by a new subscriber; guarded by mutex_
+    bool changed = false;    ///< as soon as its rate allows; guarded by mutex_
   };
 
   template <class Message>
   void open(ros::NodeHandle& node, const std::string& name, double rate, Channel& channel);
 
   void run();
+  void takeTurns();
   Clock::time_point nextTurn() const;
   bool heard(const Channel& channel) const;
-  bool takeTurn(Channel& channel, bool wanted, bool unchanged_too, Clock::time_point now) const;
+  bool takeTurn(Channel& channel, bool unchanged_too, Clock::time_point now);
   void publishSnapshot(bool markers, bool surface);
   StatusSource statusSource();
   void publishStatus();

@@ -23,11 +23,20 @@ public:
     }
   }
 
-  /// Waits until it is more than `known`, but no longer than `patience`.
+  /// Waits until it is more than `known`, or somebody says wake(), but no longer than `patience`.
   void waitFor(std::uint64_t known, std::chrono::milliseconds patience)
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    raised_.wait_for(lock, patience, [&] { return ended_ || number_ > known; });
+    raised_.wait_for(lock, patience, [&] { return ended_ || woken_ || number_ > known; });
+    woken_ = false;
+  }
+
+  /// Whoever waits, or waits next, goes on.
+  void wake()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    woken_ = true;
+    raised_.notify_all();
   }
 
   /// Nobody waits any more, now and from now on.
@@ -42,6 +51,7 @@ private:
   std::mutex mutex_;
   std::condition_variable raised_;
   std::uint64_t number_ = 0;
+  bool woken_ = false;
   bool ended_ = false;
 };
 

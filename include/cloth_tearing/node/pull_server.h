@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -41,6 +42,7 @@ private:
   void onGoal(GoalHandle handle);
   void onCancel(GoalHandle handle);
   void run();
+  void cancelPulls();
   void tellEnds();
   void tellProgress();
 
@@ -48,6 +50,7 @@ private:
   NewestNumber& ends_;
   std::mutex mutex_;                           // guards what follows
   std::map<std::uint64_t, GoalHandle> goals_;  ///< under way, by pull
+  std::set<std::uint64_t> unwanted_;           ///< pulls that are to be cancelled
   std::uint64_t told_ = 0;                     ///< number of the last end that was told
   bool stopping_ = false;
 
@@ -74,6 +77,8 @@ private:
   {
     GoalHandle handle;
     std::atomic<bool> cancelled{ false };
+    std::uint64_t ends_before = 0;      ///< number of the last pull that ended before it
+    std::atomic<bool> ending{ false };  ///< the node is
     std::atomic<bool> over{ false };
     std::thread thread;
   };
@@ -82,6 +87,7 @@ private:
   void onCancel(GoalHandle handle);
   void start(GoalHandle handle, std::unique_ptr<cloth::Simulation> copy, std::uint64_t pull);
   void predict(Prediction& prediction, cloth::Simulation& copy, std::uint64_t pull) const;
+  bool finished(Prediction& prediction, const cloth::Simulation& copy, std::uint64_t pull) const;
   void forgetOld();
 
   NodeContext context_;
