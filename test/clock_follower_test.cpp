@@ -97,16 +97,5 @@ TEST(FollowedClock, IsNotMadeUpForWithoutBound)
   EXPECT_EQ(stepAllDue(follower), 3);
 }
 
-TEST(FollowedClock, CanBeForgotten)
-{
-  ClockFollower follower(0.001);
-  follower.look(seconds(1));
-  follower.look(seconds(2));
-  follower.forget();
-  EXPECT_FALSE(follower.following());
-  EXPECT_EQ(follower.look(seconds(50)), "");
-  EXPECT_EQ(stepAllDue(follower), 0);
-}
-
 }  // namespace
 }  // namespace cloth

@@ -19,10 +19,18 @@ using std::chrono::seconds;
 /// Longer than anything here takes on a busy machine.
 constexpr seconds DEADLINE{ 60 };
 
-std::unique_ptr<Simulation> smallSimulation()
+/// @param time_step [s]
+Simulation smallSimulation(double time_step)
 {
   const ClothModel flat = sheet(0.5, 0.5, 6, 6);
-  return std::make_unique<Simulation>(upright(flat), edgeOf(flat, "top"), untearable());
+  SimulationParams params = untearable();
+  params.solver.time_step = time_step;
+  return { upright(flat), edgeOf(flat, "top"), params };
+}
+
+std::unique_ptr<Simulation> smallSimulation()
+{
+  return std::make_unique<Simulation>(smallSimulation(0.001));
 }
 
 SimulationLoop::Options options(Pace pace, milliseconds patience = DEADLINE)
@@ -381,6 +389,37 @@ TEST(LoopClock, IsFollowedAnewAfterAPause)
   clock.show(milliseconds(5504));
 
   EXPECT_TRUE(standsAt(loop, 7)) << "what passed meanwhile is not made up for";
+}
+
+/// Follows a clock for 20 ms with a cloth of 1 ms steps, then with what `replace` puts there.
+template <class Replace>
+void expectStepsOfFourMilliseconds(const Replace& replace)
+{
+  HandClock clock;
+  clock.show(milliseconds(5000));
+  SimulationLoop loop(smallSimulation(), clock.options(), ignore);
+  ASSERT_TRUE(eventually([&] { return !loop.state().awaits_clock; }));
+  clock.show(milliseconds(5020));
+  ASSERT_TRUE(standsAt(loop, 20));
+
+  replace(loop);
+  const std::uint64_t begin = stepsOf(loop);
+  ASSERT_TRUE(eventually([&] { return !loop.state().awaits_clock; }));
+  clock.show(milliseconds(5100));
+
+  EXPECT_TRUE(standsAt(loop, begin + 20));
+}
+
+TEST(LoopClock, IsFollowedInTheTimeStepOfARestoredState)
+{
+  expectStepsOfFourMilliseconds([](SimulationLoop& loop)
+                                { loop.restore(smallSimulation(0.004).save()); });
+}
+
+TEST(LoopClock, IsFollowedInTheTimeStepOfAnotherCloth)
+{
+  expectStepsOfFourMilliseconds([](SimulationLoop& loop)
+                                { loop.takeCloth(smallSimulation(0.004)); });
 }
 
 TEST(LoopClock, HasToBeThereToBeFollowed)

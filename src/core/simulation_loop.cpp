@@ -76,8 +76,7 @@ void SimulationLoop::run()
     else if (paused_ || options_.pace == Pace::STEP)
     {
       due = Clock::now();
-      follower_.forget();
-      following_ = false;
+      followAnew();
       queue_.waitUntil(due + IDLE);
     }
     else if (options_.pace == Pace::FREE)
@@ -142,6 +141,13 @@ void SimulationLoop::followClock()
   {
     queue_.waitUntil(start + SLICE);
   }
+}
+
+/// Following the clock begins with its next reading, in time steps as they are now.
+void SimulationLoop::followAnew()
+{
+  follower_ = ClockFollower(simulation_->params().solver.time_step);
+  following_ = false;
 }
 
 void SimulationLoop::oneStep()
@@ -250,6 +256,7 @@ StepAnswer SimulationLoop::restore(const std::string& state)
         Simulation restored = simulation.restored(state);
         cutRequests("another state was restored");
         simulation = std::move(restored);
+        followAnew();
         StepAnswer answer;
         tell(answer);
         return answer;
@@ -264,6 +271,7 @@ void SimulationLoop::takeCloth(Simulation other)
         other.tune(tuningOf(simulation.params()));
         cutRequests("another cloth was put in its place");
         simulation.takeCloth(std::move(other));
+        followAnew();
       });
 }
 

@@ -32,9 +32,6 @@ public:
   bool stepDue() const;
   void stepped() { ++steps_; }
 
-  /// Following begins anew with the next reading.
-  void forget() { *this = ClockFollower(time_step_); }
-
   /// Whether there has been a reading.
   bool following() const { return last_.has_value(); }
 

@@ -133,6 +133,7 @@ private:
   void oneStep();
   void keepPace(Clock::time_point& due);
   void followClock();
+  void followAnew();
   void tell(StepAnswer& answer) const;
   void answerRequest(const std::string& cut_short);
   void cutRequests(const std::string& why);
