@@ -311,6 +311,48 @@ TEST(OneSavedState, ReturnsTheParametersOfAStepAndLeavesThoseOfRequestsAndLogs)
   EXPECT_EQ(after.life, 2u);
 }
 
+TEST(OneSavedState, BringsTheFramesAlongThatSpheresFollow)
+{
+  Simulation original = another();
+  Sphere finger;
+  finger.id = 4;
+  finger.frame = "finger";
+  finger.center_in_frame = Vec3d(0.01, 0.02, 0.03);
+  finger.center = Vec3d(5.0, 0.0, 0.0);
+  original.setSpheres({ finger });
+
+  const Simulation copy = another().restored(original.save());
+
+  ASSERT_EQ(copy.spheres().size(), 1u);
+  EXPECT_EQ(copy.spheres()[0].frame, "finger");
+  EXPECT_EQ(copy.spheres()[0].center_in_frame, finger.center_in_frame);
+}
+
+/// Like another(), somewhere else.
+Simulation anotherIn(const std::string& place)
+{
+  const ClothModel model = sheet(0.4, 0.3, 4, 3);
+  SimulationParams params;
+  params.place = place;
+  return { model, edgeOf(model, "top"), params };
+}
+
+TEST(OneSavedState, IsRefusedInAnotherPlaceByBothNames)
+{
+  const std::string state = anotherIn("world at (0, 0, 1.5)").save();
+  const std::string reason = reasonAgainst(anotherIn("map at (0, 0, 0)"), state);
+  EXPECT_NE(reason.find("\"world at (0, 0, 1.5)\""), std::string::npos) << reason;
+  EXPECT_NE(reason.find("\"map at (0, 0, 0)\""), std::string::npos) << reason;
+  EXPECT_EQ(reasonAgainst(anotherIn("world at (0, 0, 1.5)"), state), "");
+}
+
+TEST(OneSavedState, IsOfThePlaceOfTheSimulationWhateverClothItTakes)
+{
+  Simulation simulation = anotherIn("world at (0, 0, 1.5)");
+  simulation.takeCloth(anotherIn(""));
+  EXPECT_EQ(reasonAgainst(anotherIn("world at (0, 0, 1.5)"), simulation.save()), "");
+}
+
 TEST(OneSavedState, EndsPresentGraspsAndTellsThoseThatItHolds)
 {
   Simulation original = determinism::curtain(SolverKind::XPBD);
@@ -496,6 +538,7 @@ Simulation smallAndTorn(SolverKind solver)
   simulation.throwSphere({});
   Sphere sphere;
   sphere.center = Vec3d(5.0, 0.0, 0.0);
+  sphere.frame = "finger";
   simulation.setSpheres({ sphere });
   run(simulation, 120);
   return simulation;
@@ -572,6 +615,7 @@ const std::set<std::string> LEFT_OUT = {
   "max_grasp_distance of params",
   "tear_log_size of params",
   "life of params",
+  "place of params",
   "news of grippers",
   "solver of simulation",  // `memory` stands for it
   "contact of simulation",

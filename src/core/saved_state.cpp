@@ -14,21 +14,23 @@ namespace
 {
 
 constexpr char MAGIC[] = { 'C', 'L', 'O', 'T', 'H', '\r', '\n', '\x1a' };  // no text file
-constexpr std::uint32_t STATE_FORMAT = 1;
+constexpr std::uint32_t STATE_FORMAT = 2;
 constexpr std::size_t CHECKSUM_SIZE = sizeof(std::uint64_t);
 
 /// What the state does not know of itself.
 struct Origin
 {
   std::uint64_t life = 0;
+  std::string place;
   std::vector<TearEvent> tears;  ///< that made the cloth what it is, as far as the log goes back
 };
 
 template <class Archive>
 void transfer(Archive& archive, Origin& origin)
 {
-  auto& [life, tears] = origin;
+  auto& [life, place, tears] = origin;
   archive("life", life);
+  archive("place", place);
   archive("tears", tears);
 }
 
@@ -75,7 +77,7 @@ ArchiveReader opened(const std::string& bytes)
 
 std::string Simulation::save() const
 {
-  Origin origin{ params_.life, {} };
+  Origin origin{ params_.life, params_.place, {} };
   for (TearEvent& tear : log_.since(0, static_cast<std::size_t>(-1)))
   {
     if (history_.holds(tear.sequence))
@@ -104,6 +106,11 @@ Simulation Simulation::restored(const std::string& bytes) const
   next.grippers_.releaseAll(next.cloth_, "another state was restored");
   next.publish();
   reader("origin", origin);
+  if (origin.place != params_.place)
+  {
+    throw Refusal("the state was saved in another place: its cloth frame is \"" + origin.place +
+                  "\", here it is \"" + params_.place + "\"");
+  }
   reader("state", next);
   reader.expectEnd();
   refuseIf(problems(next.params_));

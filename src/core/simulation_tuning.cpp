@@ -174,6 +174,7 @@ void Simulation::setTearRules(const TearRules& rules)
 void Simulation::takeCloth(Simulation other)
 {
   other.params_.life = params_.life;
+  other.params_.place = params_.place;
   params_ = std::move(other.params_);
   untorn_ = std::move(other.untorn_);
   start_stability_ = other.start_stability_;

@@ -35,6 +35,8 @@ struct Sphere
   double age = 0.0;   ///< since it was set [s]
   Vec3d force = Vec3d::Zero();  ///< that the cloth exerted on it in the last step [N]
   double time_left = 0.0;  ///< [s]: STREAMED moves on so long and then stands, THROWN is gone then
+  std::string frame;       ///< that it follows, for whoever moves it; empty: none
+  Vec3d center_in_frame = Vec3d::Zero();  ///< [m], in `frame`
 };
 
 struct ContactParams

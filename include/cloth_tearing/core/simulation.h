@@ -47,6 +47,7 @@ struct SimulationParams
   double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
   int tear_log_size = 100000;    ///< tears kept for those who ask later, and events of grasps, >= 1
   std::uint64_t life = 0;  ///< names the simulation and its copies among all others: see restored()
+  std::string place;       ///< where the cloth frame is, in words: see restored()
 
   /// How fast air brakes cloth [1/s].
   double airRate() const
@@ -133,7 +134,7 @@ public:
   /// and the numbers of grasps, pulls and thrown spheres go on from here. Tears of another life are
   /// added to the log, each once, under new numbers, with this time and epoch. Present grasps end,
   /// and those of the state are taken; their pulls go on under new numbers.
-  /// @throws Refusal saying why `bytes` are no such state
+  /// @throws Refusal saying why `bytes` are no such state, or that it was saved in another place
   Simulation restored(const std::string& bytes) const;
 
   /// Takes hold of the cloth. Pinned particles are passed over.

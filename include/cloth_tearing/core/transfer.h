@@ -129,7 +129,7 @@ void transfer(Archive& archive, SimulationParams& params)
 {
   auto& [material, environment, solver, tearing, strength, contact, rest_shape, max_grasp_distance,
          grasp_force_filter, max_gripper_speed, max_gripper_turn, max_speed, runaway_strain,
-         tear_log_size, life] = params;
+         tear_log_size, life, place] = params;
   archive("material", material);
   archive("environment", environment);
   archive("solver", solver);
@@ -361,7 +361,7 @@ template <class Archive>
 void transfer(Archive& archive, Sphere& sphere)
 {
   auto& [source, id, center, previous, velocity, jump, jump_time, radius, mass, fresh, out, age,
-         time_left, force] = sphere;
+         force, time_left, frame, center_in_frame] = sphere;
   archive.choice("source", source, SphereSource::THROWN);
   archive("id", id);
   archive("center", center);
@@ -374,8 +374,10 @@ void transfer(Archive& archive, Sphere& sphere)
   archive("fresh", fresh);
   archive("out", out);
   archive("age", age);
-  archive("time_left", time_left);
   archive("force", force);
+  archive("time_left", time_left);
+  archive("frame", frame);
+  archive("center_in_frame", center_in_frame);
 }
 
 template <class Archive>
