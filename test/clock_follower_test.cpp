@@ -97,5 +97,37 @@ TEST(FollowedClock, IsNotMadeUpForWithoutBound)
   EXPECT_EQ(stepAllDue(follower), 3);
 }
 
+TEST(FollowedClock, SaysWhatIsNotMadeUpFor)
+{
+  ClockFollower follower(0.001);
+  follower.look(seconds(0));
+  follower.look(milliseconds(700));
+  EXPECT_EQ(follower.lost(), 0.0);
+  follower.look(milliseconds(1400));
+  EXPECT_NEAR(follower.lost(), 0.4, 1e-8);
+  follower.look(milliseconds(1450));
+  EXPECT_NEAR(follower.lost(), 0.05, 1e-8);
+  follower.look({});
+  EXPECT_EQ(follower.lost(), 0.0) << "nothing more";
+  EXPECT_EQ(stepAllDue(follower), 1000);
+  follower.look(seconds(90));
+  EXPECT_EQ(follower.lost(), 0.0) << "a jump is no loss";
+}
+
+TEST(LostTime, IsToldEveryFiveSecondsAtMost)
+{
+  LostTime lost;
+  const LostTime::Clock::time_point start;
+  EXPECT_EQ(lost.tell(start), "");
+  lost.add(0.25);
+  EXPECT_EQ(lost.tell(start), "fell behind the clock by 0.25 s: not made up for");
+  lost.add(0.5);
+  lost.add(1.0);
+  EXPECT_EQ(lost.tell(start + milliseconds(4999)), "");
+  EXPECT_EQ(lost.tell(start + seconds(5)), "fell behind the clock by 1.5 s: not made up for");
+  EXPECT_EQ(lost.tell(start + seconds(20)), "") << "nothing more";
+  EXPECT_EQ(lost.total(), 1.75);
+}
+
 }  // namespace
 }  // namespace cloth

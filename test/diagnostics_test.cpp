@@ -60,11 +60,22 @@ TEST(SolverEntry, IsNotLateWhereRealTimeIsNotItsPace)
   }
 }
 
+TEST(SolverEntry, IsLateWhereItFallsBehindTheClockThatItFollows)
+{
+  StatusSource source;
+  source.loop.pace = cloth::Pace::CLOCK;
+  source.loop.real_time_factor = 1.0;  // of a clock that is faster
+  source.loop.falls_behind = true;
+  EXPECT_EQ(solver(source).level, DiagnosticStatus::WARN);
+  EXPECT_EQ(solver(source).message, "slower than the clock that it follows");
+}
+
 TEST(SolverEntry, TellsHowItRuns)
 {
   StatusSource source;
   source.loop.real_time_factor = 0.97;
   source.loop.clock_jumps = 3;
+  source.loop.lost_time = 1.5;
   source.summary.utilisation = 0.25;
   source.refusals = 2;
   source.last_refusal = "grasp: no";
@@ -75,6 +86,7 @@ TEST(SolverEntry, TellsHowItRuns)
   EXPECT_EQ(value(entry, "substeps a step"), "1");
   EXPECT_EQ(value(entry, "real-time factor"), "0.97");
   EXPECT_EQ(value(entry, "clock jumps"), "3");
+  EXPECT_EQ(value(entry, "lost time [s]"), "1.5");
   EXPECT_EQ(value(entry, "worst utilisation"), "0.25");
   EXPECT_EQ(value(entry, "refusals"), "2");
   EXPECT_EQ(value(entry, "last refusal"), "grasp: no");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "scenes.h"
@@ -389,6 +390,36 @@ TEST(LoopClock, IsFollowedAnewAfterAPause)
   clock.show(milliseconds(5504));
 
   EXPECT_TRUE(standsAt(loop, 7)) << "what passed meanwhile is not made up for";
+}
+
+TEST(LoopClock, MayBeTooFastWhichIsToldAndCounted)
+{
+  HandClock clock;
+  clock.show(milliseconds(0));
+  std::atomic<bool> hurries{ true };
+  SimulationLoop::Options options = clock.options();
+  options.clock = [&]
+  {
+    clock.show(milliseconds(clock.now + (hurries ? 1000 : 0)));  // as much as is no jump
+    return ClockFollower::Reading(milliseconds(clock.now));
+  };
+  const Clock::time_point start = Clock::now();
+  SimulationLoop loop(smallSimulation(), options, ignore);
+
+  ASSERT_TRUE(eventually([&] { return loop.state().falls_behind; }));
+  hurries = false;
+  ASSERT_TRUE(eventually([&] { return !loop.state().falls_behind; }));
+  const auto missing = [&]
+  {
+    const double shown = 0.001 * static_cast<double>(clock.now) - 1.0;  // since the first reading
+    return shown - loop.state().lost_time - 0.001 * static_cast<double>(stepsOf(loop));
+  };
+  EXPECT_TRUE(eventually([&] { return std::abs(missing()) < 1e-6; })) << missing();
+  EXPECT_EQ(loop.state().clock_jumps, 0u);
+  const auto notes = loop.call([&](Simulation&) { return clock.notes; });
+  ASSERT_FALSE(notes.empty());
+  EXPECT_EQ(notes.front().find("fell behind the clock by "), 0u) << notes.front();
+  EXPECT_LE(notes.size(), 1 + static_cast<std::size_t>((Clock::now() - start) / seconds(5)));
 }
 
 /// Follows a clock for 20 ms with a cloth of 1 ms steps, then with what `replace` puts there.

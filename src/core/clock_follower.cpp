@@ -1,5 +1,8 @@
-// Counts the time steps that an outside clock makes due.
+// Counts the time steps that an outside clock makes due, and the time that is not made up for.
 #include "cloth_tearing/core/clock_follower.h"
+
+#include <algorithm>
+#include <utility>
 
 #include "cloth_tearing/core/checks.h"
 
@@ -22,6 +25,7 @@ double seconds(nanoseconds time)
 
 std::string ClockFollower::look(const Reading& now)
 {
+  lost_ = 0.0;
   if (!now)
   {
     return "";
@@ -33,11 +37,10 @@ std::string ClockFollower::look(const Reading& now)
     return "the clock jumped by " + text(seconds(passed)) + " s: skipped";
   }
   followed_ += passed;
-  const double lost = lag() - seconds(LONGEST_LAG);
-  if (lost > 0.0)
-  {
-    followed_ -= std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(lost));
-  }
+  const auto lost = std::chrono::duration_cast<nanoseconds>(
+      std::chrono::duration<double>(std::max(0.0, lag() - seconds(LONGEST_LAG))));
+  followed_ -= lost;
+  lost_ = seconds(lost);
   return "";
 }
 
@@ -50,6 +53,17 @@ bool ClockFollower::stepDue() const
 double ClockFollower::lag() const
 {
   return seconds(followed_) - static_cast<double>(steps_) * time_step_;
+}
+
+std::string LostTime::tell(Clock::time_point now)
+{
+  if (total_ == told_ || (last_told_ && now < *last_told_ + TELL_EVERY))
+  {
+    return "";
+  }
+  last_told_ = now;
+  return "fell behind the clock by " + text(total_ - std::exchange(told_, total_)) +
+         " s: not made up for";
 }
 
 }  // namespace cloth

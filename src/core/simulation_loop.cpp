@@ -91,6 +91,7 @@ void SimulationLoop::run()
     {
       keepPace(due);
     }
+    tellJump(lost_.tell(Clock::now()));
     measure();
   }
   for (auto& request : requests_)
@@ -124,14 +125,10 @@ void SimulationLoop::followClock()
   const Clock::time_point start = Clock::now();
   const std::string jump = follower_.look(options_.clock());
   following_ = follower_.following();
-  if (!jump.empty())
-  {
-    ++clock_jumps_;
-    if (options_.on_clock_jump)
-    {
-      options_.on_clock_jump(jump);
-    }
-  }
+  clock_jumps_ += jump.empty() ? 0 : 1;
+  tellJump(jump);
+  lost_.add(follower_.lost());
+  lost_time_ = lost_.total();
   while (follower_.stepDue() && Clock::now() < start + SLICE && !paused_)
   {
     oneStep();
@@ -148,6 +145,14 @@ void SimulationLoop::followAnew()
 {
   follower_ = ClockFollower(simulation_->params().solver.time_step);
   following_ = false;
+}
+
+void SimulationLoop::tellJump(const std::string& jump)
+{
+  if (!jump.empty() && options_.on_clock_jump)
+  {
+    options_.on_clock_jump(jump);
+  }
 }
 
 void SimulationLoop::oneStep()
@@ -278,7 +283,8 @@ void SimulationLoop::takeCloth(Simulation other)
 LoopState SimulationLoop::state() const
 {
   const bool awaits_clock = options_.pace == Pace::CLOCK && !paused_ && !following_;
-  return { options_.pace, paused_, real_time_factor_, awaits_clock, clock_jumps_ };
+  return { options_.pace, paused_,    real_time_factor_, awaits_clock,
+           clock_jumps_,  lost_time_, falls_behind_ };
 }
 
 void SimulationLoop::measure()
@@ -290,6 +296,8 @@ void SimulationLoop::measure()
   }
   const double elapsed = std::chrono::duration<double>(now - measured_at_).count();
   real_time_factor_ = (simulation_->time() - measured_time_) / elapsed;
+  falls_behind_ = lost_.total() > measured_lost_;
+  measured_lost_ = lost_.total();
   measured_at_ = now;
   measured_time_ = simulation_->time();
 }

@@ -21,8 +21,8 @@ constexpr double LATE = 0.9;
 
 bool isLate(const cloth::LoopState& loop)
 {
-  return loop.pace == cloth::Pace::WALL && loop.real_time_factor > 0.0 &&
-         loop.real_time_factor < LATE;
+  return loop.falls_behind || (loop.pace == cloth::Pace::WALL && loop.real_time_factor > 0.0 &&
+                               loop.real_time_factor < LATE);
 }
 
 void summarise(const StatusSource& source, DiagnosticStatusWrapper& entry)
@@ -41,7 +41,9 @@ void summarise(const StatusSource& source, DiagnosticStatusWrapper& entry)
   }
   else if (isLate(source.loop))
   {
-    entry.summary(DiagnosticStatus::WARN, "slower than real time");
+    entry.summary(DiagnosticStatus::WARN, source.loop.falls_behind
+                                              ? "slower than the clock that it follows"
+                                              : "slower than real time");
   }
   else
   {
@@ -58,6 +60,7 @@ void describeSolver(const StatusSource& source, DiagnosticStatusWrapper& entry)
   entry.add("real-time factor", cloth::text(source.loop.real_time_factor));
   entry.add("substeps a step", source.summary.substeps);
   entry.add("clock jumps", source.loop.clock_jumps);
+  entry.add("lost time [s]", cloth::text(source.loop.lost_time));
   entry.add("time [s]", cloth::text(source.summary.time));
   entry.add("step", source.summary.step);
   entry.add("epoch", source.summary.epoch);

@@ -1,4 +1,4 @@
-// Counts the time steps that an outside clock makes due.
+// Counts the time steps that an outside clock makes due, and the time that is not made up for.
 #pragma once
 
 #include <chrono>
@@ -30,6 +30,9 @@ public:
 
   /// Whether the clock has gone on by a whole time step more than stepped() was told.
   bool stepDue() const;
+
+  /// What became due with the last look() beyond LONGEST_LAG, and is so no longer [s].
+  double lost() const { return lost_; }
   void stepped() { ++steps_; }
 
   /// Whether there has been a reading.
@@ -42,6 +45,31 @@ private:
   Reading last_;
   std::chrono::nanoseconds followed_{ 0 };  ///< since following began, without jumps and lost time
   std::uint64_t steps_ = 0;                 ///< since following began
+  double lost_ = 0.0;                       ///< [s]
+};
+
+/// Adds up the time by which steps fell behind a clock, and tells of it now and then.
+class LostTime
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  static constexpr std::chrono::seconds TELL_EVERY{ 5 };
+
+  /// @param time [s], >= 0
+  void add(double time) { total_ += time; }
+
+  /// All of it [s].
+  double total() const { return total_; }
+
+  /// @return a sentence on what was lost since the last one, if that was TELL_EVERY ago; empty if
+  /// it was not, or nothing was lost
+  std::string tell(Clock::time_point now);
+
+private:
+  double total_ = 0.0;                          ///< [s]
+  double told_ = 0.0;                           ///< of it [s]
+  std::optional<Clock::time_point> last_told_;  ///< none yet
 };
 
 }  // namespace cloth

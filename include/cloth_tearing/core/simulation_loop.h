@@ -33,6 +33,8 @@ struct LoopState
   double real_time_factor = 0.0;  ///< simulated over elapsed time, over about the last second [-]
   bool awaits_clock = false;      ///< Pace::CLOCK, running, and the clock has shown nothing yet
   std::uint64_t clock_jumps = 0;  ///< of the clock that is followed; each was skipped
+  double lost_time = 0.0;         ///< by which it fell behind that clock, without the jumps [s]
+  bool falls_behind = false;      ///< it did so within about the last second
 };
 
 /// Answer to step().
@@ -68,8 +70,8 @@ public:
     /// Called on the loop's thread when commands may have been run: quick work only.
     std::function<void(const Simulation&)> after_commands;
 
-    /// What Pace::CLOCK follows, and is told of when it jumped. Both are called on the loop's
-    /// thread and must not wait.
+    /// What Pace::CLOCK follows, and is told of when it jumped or is fallen behind. Both are called
+    /// on the loop's thread and must not wait.
     std::function<ClockFollower::Reading()> clock;
     std::function<void(const std::string&)> on_clock_jump;
   };
@@ -134,6 +136,7 @@ private:
   void keepPace(Clock::time_point& due);
   void followClock();
   void followAnew();
+  void tellJump(const std::string& jump);
   void tell(StepAnswer& answer) const;
   void answerRequest(const std::string& cut_short);
   void cutRequests(const std::string& why);
@@ -150,8 +153,12 @@ private:
   ClockFollower follower_;  ///< of the loop's thread
   std::atomic<bool> following_{ false };
   std::atomic<std::uint64_t> clock_jumps_{ 0 };
+  LostTime lost_;  ///< of the loop's thread
+  std::atomic<double> lost_time_{ 0.0 };
+  std::atomic<bool> falls_behind_{ false };
   Clock::time_point measured_at_;
   double measured_time_ = 0.0;  ///< simulated time then [s]
+  double measured_lost_ = 0.0;  ///< lost time then [s]
   std::thread thread_;          ///< last: it starts when everything else is there
 };
 
