@@ -1260,5 +1260,23 @@ TEST(Tearing, LeavesTheTextureOfEveryPieceWhereItWas)
   }
 }
 
+TEST(TearRules, AreHeldAgainstATearStrainOnlyIfThatIsOne)
+{
+  TearRules rules;
+  rules.tear_strain = 0.1;
+  rules.weak_tear_strain = 0.2;
+  rules.one_point_tear_strain = 0.3;
+  EXPECT_EQ(problems(rules).size(), 2u);
+  for (const double none : { std::nan(""), -1.0, 0.0, 101.0 })
+  {
+    rules.tear_strain = none;
+    const std::vector<std::string> found = problems(rules);
+    ASSERT_EQ(found.size(), 1u) << none;
+    EXPECT_EQ(found[0].find("tear_strain [-] is "), 0u) << found[0];
+  }
+  rules.weak_tear_strain = std::nan("");
+  EXPECT_EQ(problems(rules).size(), 2u) << "which is wrong by itself";
+}
+
 }  // namespace
 }  // namespace cloth
