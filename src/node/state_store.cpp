@@ -1,12 +1,6 @@
 // Keeps states in memory and writes them to files.
 #include "cloth_tearing/node/state_store.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -33,56 +27,6 @@ void refuseLarge(std::uint64_t bytes, std::uint64_t most, const std::string& wha
                          " MB, max_state_memory is " + cloth::text(double(most) / MEGABYTE) +
                          " MB");
   }
-}
-
-[[noreturn]] void refuseErrno(const std::string& doing, const std::string& path)
-{
-  const int error = errno;
-  throw cloth::Refusal("cannot " + doing + " " + path + ": " +
-                       std::generic_category().message(error));
-}
-
-/// A file descriptor, closed in the end.
-class File
-{
-public:
-  File(const std::string& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC)) {}
-  ~File()
-  {
-    if (number_ >= 0)
-    {
-      ::close(number_);
-    }
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
-  bool isOpen() const { return number_ >= 0; }
-  int number() const { return number_; }
-
-private:
-  int number_;
-};
-
-/// @return whether all of `bytes` was there; errno says why not
-bool readAll(int file, std::string& bytes)
-{
-  std::size_t taken = 0;
-  while (taken < bytes.size())
-  {
-    const ssize_t more = ::read(file, &bytes[taken], bytes.size() - taken);
-    if (more == 0)
-    {
-      errno = ENODATA;  // somebody has cut it off meanwhile
-      return false;
-    }
-    if (more < 0 && errno != EINTR)
-    {
-      return false;
-    }
-    taken += static_cast<std::size_t>(std::max<ssize_t>(0, more));
-  }
-  return true;
 }
 
 }  // namespace
@@ -167,23 +111,8 @@ void StateStore::write(const std::string& name, const std::string& bytes) const
 StateStore::Bytes StateStore::read(const std::string& name) const
 {
   const std::string path = pathOf(name);
-  const File file(path, O_RDONLY | O_NONBLOCK);  // of a pipe nobody knows when it is there
-  struct stat status = {};
-  if (!file.isOpen() || ::fstat(file.number(), &status) != 0)
-  {
-    refuseErrno("read", path);
-  }
-  if (!S_ISREG(status.st_mode))
-  {
-    throw cloth::Refusal("cannot read " + path + ": it is no file");
-  }
-  refuseLarge(static_cast<std::uint64_t>(status.st_size), mostBytes(), path);
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
-  if (!readAll(file.number(), bytes))
-  {
-    refuseErrno("read", path);
-  }
-  return std::make_shared<const std::string>(std::move(bytes));
+  return std::make_shared<const std::string>(
+      readWholeFile(path, [&](std::uint64_t size) { refuseLarge(size, mostBytes(), path); }));
 }
 
 }  // namespace cloth_tearing

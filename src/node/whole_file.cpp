@@ -1,7 +1,8 @@
-// Writes a temporary file, then gives it its name.
+// Writes a temporary file, then gives it its name; reads a regular file to its end.
 #include "cloth_tearing/node/whole_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,6 +32,28 @@ namespace
 {
   throw cloth::Refusal(path + " exists already, and is not to be replaced");
 }
+
+/// A file descriptor, closed in the end.
+class File
+{
+public:
+  File(const std::string& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC)) {}
+  ~File()
+  {
+    if (number_ >= 0)
+    {
+      ::close(number_);
+    }
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  bool isOpen() const { return number_ >= 0; }
+  int number() const { return number_; }
+
+private:
+  int number_;
+};
 
 /// A file that is there as long as this is.
 class TemporaryFile
@@ -96,18 +119,32 @@ private:
 void settleFolder(const std::string& path)
 {
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  const int number = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool settled = number >= 0 && fsync(number) == 0;
-  const int error = errno;
-  if (number >= 0)
+  const File file(folder, O_RDONLY | O_DIRECTORY);
+  if (!file.isOpen() || fsync(file.number()) != 0)
   {
-    close(number);
-  }
-  if (!settled)
-  {
-    errno = error;
     refuseErrno("be sure of", path);
   }
+}
+
+/// @return whether all of `bytes` was there; errno says why not
+bool readAll(int file, std::string& bytes)
+{
+  std::size_t taken = 0;
+  while (taken < bytes.size())
+  {
+    const ssize_t more = ::read(file, &bytes[taken], bytes.size() - taken);
+    if (more == 0)
+    {
+      errno = ENODATA;  // somebody has cut it off meanwhile
+      return false;
+    }
+    if (more < 0 && errno != EINTR)
+    {
+      return false;
+    }
+    taken += static_cast<std::size_t>(std::max<ssize_t>(0, more));
+  }
+  return true;
 }
 
 }  // namespace
@@ -135,6 +172,27 @@ void writeWholeFile(const std::string& path, Existing existing, const std::strin
     refuseErrno("write", path);
   }
   settleFolder(path);
+}
+
+std::string readWholeFile(const std::string& path, const std::function<void(std::uint64_t)>& judge)
+{
+  const File file(path, O_RDONLY | O_NONBLOCK);  // of a pipe nobody knows when it is there
+  struct stat status = {};
+  if (!file.isOpen() || ::fstat(file.number(), &status) != 0)
+  {
+    refuseErrno("read", path);
+  }
+  if (!S_ISREG(status.st_mode))
+  {
+    throw cloth::Refusal("cannot read " + path + ": it is no file");
+  }
+  judge(static_cast<std::uint64_t>(status.st_size));
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  if (!readAll(file.number(), bytes))
+  {
+    refuseErrno("read", path);
+  }
+  return bytes;
 }
 
 }  // namespace cloth_tearing
