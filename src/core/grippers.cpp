@@ -14,8 +14,8 @@ namespace cloth
 namespace
 {
 
-constexpr double MOST_FORCE = 1e6;        ///< [N]
-constexpr double LONGEST_GLIDE = 3600.0;  ///< [s]
+constexpr double MOST_FORCE = 1e6;          ///< [N]
+constexpr double MOST_GLIDE_TIME = 3600.0;  ///< [s]
 constexpr int MOST_TEARS = 1000000000;
 
 /// The particles that a grasp takes, and how far the nearest free one is [m].
@@ -203,7 +203,7 @@ void Grippers::glide(Grasp& grasp, const Pose& pose, double time)
   std::vector<std::string> found;
   check(found, "target position [m]", pose.position, MAX_COORDINATE);
   check(found, "target orientation", pose.rotation);
-  check(found, "time [s]", time, Range::between(0.0, LONGEST_GLIDE));
+  check(found, "time [s]", time, Range::between(0.0, MOST_GLIDE_TIME));
   refuseIf(found);
   takeOver(grasp);
   grasp.glide = Glide{ pose, time };

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/grasp.h"
 #include "cloth_tearing/core/refusal.h"
 
 namespace cloth
@@ -14,9 +15,6 @@ namespace
 
 /// Thrown spheres wait until there are fewer, streamed ones included.
 constexpr std::size_t MOST_SPHERES = 1000;
-
-/// A streamed sphere takes no longer than this to where it is placed [s].
-constexpr double LONGEST_GLIDE = 0.1;
 
 /// Lets a sphere go to `center` [m] in `time` [s], unless that is no motion any more: then it is
 /// placed there anew.

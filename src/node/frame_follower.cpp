@@ -13,9 +13,6 @@ namespace cloth_tearing
 namespace
 {
 
-/// However rare the transforms, nothing is longer under way to one [s].
-constexpr double LONGEST_GLIDE = 0.1;
-
 bool same(const cloth::Pose& a, const cloth::Pose& b)
 {
   return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
@@ -92,7 +89,8 @@ const FrameFollower::Way& FrameFollower::look(const std::string& frame)
   if (way.fresh)
   {
     const double interval = (latest.stamp - way.latest.stamp).toSec();
-    way.interval = known && interval > 0.0 ? std::min(interval, LONGEST_GLIDE) : LONGEST_GLIDE;
+    way.interval =
+        known && interval > 0.0 ? std::min(interval, cloth::LONGEST_GLIDE) : cloth::LONGEST_GLIDE;
     way.latest = latest;
   }
   return way;

@@ -11,14 +11,6 @@
 namespace cloth_tearing
 {
 
-namespace
-{
-
-/// However rare the targets, a grasp is no longer under way to one [s].
-constexpr double LONGEST_GLIDE = 0.1;
-
-}  // namespace
-
 GraspServices::GraspServices(const NodeContext& context) : context_(context)
 {
   RequestServer& requests = context_.requests;
@@ -156,8 +148,8 @@ void GraspServices::steer(cloth::Simulation& simulation, const GraspTargets& mes
     const std::uint64_t id = message.targets[i].grasp_id;
     const auto before = steered_at_.find(id);
     const double since =
-        before == steered_at_.end() ? LONGEST_GLIDE : simulation.time() - before->second;
-    simulation.steer(id, poses[i], std::min(since, LONGEST_GLIDE));
+        before == steered_at_.end() ? cloth::LONGEST_GLIDE : simulation.time() - before->second;
+    simulation.steer(id, poses[i], std::min(since, cloth::LONGEST_GLIDE));
     steered_at_[id] = simulation.time();
   }
   for (auto steered = steered_at_.begin(); steered != steered_at_.end();)

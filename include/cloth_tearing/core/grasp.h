@@ -46,6 +46,10 @@ struct Glide
   double time_left = 0.0;  ///< [s]; later if that is too fast for a gripper
 };
 
+/// However rare the places of a stream, what follows it, a gripper or a sphere, is no longer under
+/// way to one [s].
+constexpr double LONGEST_GLIDE = 0.1;
+
 /// How fast a gripper glides at most.
 struct GripperLimits
 {
