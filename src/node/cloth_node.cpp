@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <random>
 
 namespace cloth_tearing
@@ -154,14 +153,12 @@ void ClothNode::onGetTearEvents(const GetTearEvents::Request& request,
                                 GetTearEvents::Response& response)
 {
   const std::uint64_t since = request.since;
-  const std::size_t most =
-      request.max_count == 0 ? std::numeric_limits<std::size_t>::max() : request.max_count;
   std::vector<cloth::TearEvent> events;
   std::array<std::uint64_t, 2> kept{};
   loop_.call(
       [&](cloth::Simulation& simulation)
       {
-        events = simulation.tearsSince(since, most);
+        events = simulation.tearsSince(since, mostOf(request.max_count));
         kept = simulation.loggedTears();
       });
   response.header.frame_id = placement_.frame_id;

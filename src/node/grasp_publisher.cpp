@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <string>
+
+#include "cloth_tearing/node/request_server.h"
 
 namespace cloth_tearing
 {
@@ -53,9 +54,7 @@ bool GraspPublisher::publishEvents(const cloth::Simulation& simulation)
     GraspEvents message;
     message.header.frame_id = placement_.frame_id;
     message.header.stamp = ros::Time::now();
-    message.events =
-        toMessages(simulation.graspEventsSince(told_ + 1, std::numeric_limits<std::size_t>::max()),
-                   placement_);
+    message.events = toMessages(simulation.graspEventsSince(told_ + 1, mostOf(0)), placement_);
     events_.publish(message);
   }
   told_ = newest;
