@@ -230,8 +230,7 @@ TEST_F(ClothNode, AnswersOthersWhileALongStepRunsAndCutsItShortByReset)
   EXPECT_GT(cut.steps_done, 10u);
 }
 
-// -- grasp, drag, tear
-// -----------------------------------------------------------------------------
+// -- grasp, drag, tear ----------------------------------------------------------------------------
 
 TEST_F(ClothNode, TearsWhenDraggedAndTellsEveryTearOnTopicAndInLog)
 {
@@ -395,8 +394,7 @@ TEST_F(ClothNode, LetsGoWhenReleased)
   EXPECT_EQ(graspedParticles(surfaces.first()), 0u);
 }
 
-// -- spheres
-// ---------------------------------------------------------------------------------------
+// -- spheres --------------------------------------------------------------------------------------
 
 TEST_F(ClothNode, IsPushedByASphereOnTheTopic)
 {
@@ -459,8 +457,7 @@ TEST_F(ClothNode, IsTornByAThrownSphereThatIsGoneAfterItsLifetime)
   EXPECT_EQ(after.spheres, 0u);
 }
 
-// -- refusals
-// --------------------------------------------------------------------------------------
+// -- refusals -------------------------------------------------------------------------------------
 
 /// A request that must be refused, and what the answer must say.
 template <class Service>
@@ -580,8 +577,7 @@ TEST_F(ClothNode, TransformsWhatComesInAnotherFrame)
   EXPECT_NEAR(surface.positions[3 * held.particle], 0.2, 0.01);
 }
 
-// -- topics and time
-// -------------------------------------------------------------------------------
+// -- topics and time ------------------------------------------------------------------------------
 
 TEST_F(ClothNode, GivesALateSubscriberTheStateOfNow)
 {

@@ -244,8 +244,7 @@ Color ClothMarkers::strainColor(cloth::Real strain) const
   return between({ 1.0F, 1.0F, 1.0F }, end, std::abs(2.0F * place - 1.0F));
 }
 
-// -- what the thesis' figures show
-// -----------------------------------------------------------------
+// -- what the thesis' figures show ----------------------------------------------------------------
 
 Marker ClothMarkers::drawTornEdges(const cloth::Surface& surface) const
 {
@@ -276,8 +275,7 @@ Marker ClothMarkers::drawWeakPoints(const cloth::Surface& surface) const
   return list;
 }
 
-// -- what touches the cloth
-// ------------------------------------------------------------------------
+// -- what touches the cloth -----------------------------------------------------------------------
 
 void ClothMarkers::drawSpheres(MarkerArray& markers, const std::vector<cloth::Sphere>& spheres)
 {

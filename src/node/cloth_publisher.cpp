@@ -158,8 +158,7 @@ void ClothPublisher::countRefusal(const std::string& name, const std::string& re
   last_refusal_ = name + ": " + reason;
 }
 
-// -- the publishing thread
-// -------------------------------------------------------------------------
+// -- the publishing thread ------------------------------------------------------------------------
 
 void ClothPublisher::run()
 {
