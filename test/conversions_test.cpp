@@ -232,10 +232,20 @@ TEST(Requests, ArriveInTheClothFrame)
 
   CollisionSphere sphere = oneSphere().spheres[0];
   sphere.center.x = 2.0;
+  sphere.frame = "finger";
   const cloth::Sphere converted = toCore(sphere, quarterTurn());
   EXPECT_EQ(converted.id, 5u);
   EXPECT_TRUE(converted.center.isApprox(cloth::Vec3d(1.0, 2.0, 0.0)));
   EXPECT_EQ(converted.source, cloth::SphereSource::STREAMED);
+  EXPECT_EQ(converted.frame, "finger");
+  EXPECT_EQ(converted.center_in_frame, cloth::Vec3d(2.0, 0.0, 0.0));
+}
+
+TEST(ClothFrame, IsNamedInWordsThatTellAnyTwoPlacesApart)
+{
+  EXPECT_EQ(toWords({ "world", cloth::Vec3d(0.0, -0.0, 1.5) }), "world at (0, 0, 1.5)");
+  EXPECT_NE(toWords({ "utm", cloth::Vec3d(4000000.25, 0.0, 0.0) }),
+            toWords({ "utm", cloth::Vec3d(4000000.5, 0.0, 0.0) }));
 }
 
 TEST(ClothFrame, LiesAtItsOriginWithTheAxesOfFrameId)

@@ -112,21 +112,6 @@ protected:
     return found;
   }
 
-  template <class Ready>
-  static bool isSoon(Ready ready)
-  {
-    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(PATIENCE);
-    while (!ready())
-    {
-      if (ros::WallTime::now() > deadline)
-      {
-        return false;
-      }
-      std::this_thread::yield();
-    }
-    return true;
-  }
-
   /// Takes hold of the cloth at `place` with a gripper whose frame is there, once tf has heard of
   /// it.
   std::uint64_t graspWith(const std::string& frame, const ClothClient& cloth,
@@ -236,6 +221,20 @@ TEST_F(GraspInterface, AGraspBeyondItsForceLimitSlipsAndSaysSo)
   EXPECT_TRUE(states(cloth_).grasps.empty());
   heard.waitFor("the slip on the topic", [&](const GraspEvents& m)
                 { return m.events.back().sequence == slips[0].sequence; });
+}
+
+TEST_F(GraspInterface, AGraspThatHoldsAllThatIsLeftSaysHowMuchThatIs)
+{
+  const std::uint64_t left = free_.grasp(at(-0.2, TOP), 0.05).grasp_id;
+  const std::uint64_t right = free_.grasp(at(0.2, TOP), 0.05).grasp_id;
+  free_.release(left);
+
+  const std::vector<GraspEvent> loose = events(free_, GraspEvent::HOLDS_LOOSE_PIECE);
+  ASSERT_EQ(loose.size(), 1u);
+  EXPECT_EQ(loose[0].grasp_id, right);
+  EXPECT_NEAR(loose[0].area, 0.16, 1e-6);
+  EXPECT_NEAR(loose[0].mass, 0.0192, 1e-6);
+  EXPECT_TRUE(stateOf(free_, right).holds_loose_piece);
 }
 
 TEST_F(GraspInterface, PinsHoldAndLetGo)

@@ -9,6 +9,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 /// No wait takes longer; a busy machine may need some of it.
@@ -24,6 +25,22 @@ typename Service::Response ask(const std::string& name,
   EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(PATIENCE))) << name;
   EXPECT_TRUE(ros::service::call(name, call)) << name << ": a refusal is an answer, too";
   return call.response;
+}
+
+/// Asks until `ready()` says yes. @return whether it did in time
+template <class Ready>
+bool isSoon(Ready ready)
+{
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(PATIENCE);
+  while (!ready())
+  {
+    if (ros::WallTime::now() > deadline)
+    {
+      return false;
+    }
+    std::this_thread::yield();
+  }
+  return true;
 }
 
 /// Keeps all messages of a topic. Needs a spinner.

@@ -1,13 +1,18 @@
 // The promises of ~save_state and ~restore_state, on running nodes that are stepped.
+#include <cloth_tearing/CollisionSpheres.h>
 #include <cloth_tearing/Drag.h>
 #include <cloth_tearing/GetTearEvents.h>
 #include <cloth_tearing/Grasp.h>
+#include <cloth_tearing/GraspStates.h>
 #include <cloth_tearing/NamedState.h>
 #include <cloth_tearing/Release.h>
 #include <cloth_tearing/Step.h>
 #include <cloth_tearing/ThrowSphere.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -121,6 +126,119 @@ TEST(StateServices, GoOnFromAFileInAnotherNodeWithTheTearsOfTheCloth)
   EXPECT_LE(events.events.front().step, 200u) << "one from before the state was saved";
 }
 
+/// Tells where the frame "finger" is, now: at half the height of the cloth, `y` [m] behind it.
+void tellFinger(tf2_ros::TransformBroadcaster& broadcaster, double y)
+{
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "world";
+  transform.header.stamp = ros::Time::now();
+  transform.child_frame_id = "finger";
+  transform.transform.translation.y = y;
+  transform.transform.translation.z = 1.2;
+  transform.transform.rotation.w = 1.0;
+  broadcaster.sendTransform(transform);
+}
+
+/// How hard spheres pushed the cloth of `node` in the last step [N].
+double contactForce(const std::string& node)
+{
+  const Step::Response now = step(0, node);
+  Collector<GraspStates> heard(node + "/grasp_states");
+  const geometry_msgs::Vector3 force =
+      heard
+          .waitFor("the states of now", [&now](const GraspStates& states)
+                   { return states.epoch == now.epoch && states.step == now.step; })
+          .contact_force;
+  return std::hypot(force.x, force.y, force.z);
+}
+
+/// A sphere that follows the frame "finger".
+class FingerState : public testing::Test
+{
+protected:
+  /// Saves the cloth with the sphere in front of it, and takes the sphere away.
+  void SetUp() override
+  {
+    ask<std_srvs::Trigger>("/cloth/reset");
+    CollisionSpheres message;
+    message.spheres.resize(1);
+    message.spheres[0].frame = "finger";
+    message.spheres[0].radius = 0.05;
+    const std::uint64_t without = step(0).state_hash;
+    const auto sends = [&](const CollisionSpheres& spheres)
+    {
+      tellFinger(broadcaster_, -0.3);
+      spheres_.publish(spheres);
+      return step(0).state_hash;
+    };
+    ASSERT_TRUE(isSoon([&] { return sends(message) != without; }));
+    const NamedState::Response saved = named("/cloth/save_state", "finger", true);
+    ASSERT_TRUE(saved.success) << saved.message;
+    ASSERT_TRUE(isSoon([&] { return sends(CollisionSpheres()) == without; }));
+  }
+
+  static void restore(const std::string& node)
+  {
+    const NamedState::Response restored = named(node + "/restore_state", "finger", true);
+    ASSERT_TRUE(restored.success) << restored.message;
+  }
+
+  /// Moves the finger until the sphere pushes the cloth.
+  bool pushes(const std::string& node)
+  {
+    double y = -0.3;
+    return isSoon(
+        [&]
+        {
+          y = std::min(y + 0.02, 0.1);
+          tellFinger(broadcaster_, y);
+          step(20, node);
+          return contactForce(node) > 0.0;
+        });
+  }
+
+  tf2_ros::TransformBroadcaster broadcaster_;
+  ros::Publisher spheres_ = ros::NodeHandle().advertise<CollisionSpheres>("/cloth/spheres", 1);
+};
+
+TEST_F(FingerState, FollowsTheFingerInTheNodeThatSavedItAndInAnother)
+{
+  restore("/cloth");
+  EXPECT_TRUE(pushes("/cloth"));
+  restore("/other");
+  EXPECT_TRUE(pushes("/other"));
+}
+
+TEST_F(FingerState, GoesToWhereTheFingerHasMovedMeanwhile)
+{
+  restore("/cloth");
+  ASSERT_TRUE(pushes("/cloth"));
+
+  restore("/cloth");
+
+  EXPECT_EQ(contactForce("/cloth"), 0.0) << "it is in front of the cloth again";
+  double force = 0.0;
+  for (int i = 0; i < 50 && force == 0.0; ++i)
+  {
+    step(5);
+    force = contactForce("/cloth");
+  }
+  EXPECT_GT(force, 0.0);
+}
+
+TEST(StateServices, RefuseTheStateOfAClothInAnotherPlace)
+{
+  ASSERT_TRUE(named("/cloth/save_state", "here", true).success);
+  const std::uint64_t before = step(0, "/elsewhere").state_hash;
+
+  const NamedState::Response refused = named("/elsewhere/restore_state", "here", true);
+
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("\"world at (0, 0, 1.5)\""), std::string::npos) << refused.message;
+  EXPECT_NE(refused.message.find("\"world at (0, 0, 1)\""), std::string::npos) << refused.message;
+  EXPECT_EQ(step(0, "/elsewhere").state_hash, before);
+}
+
 TEST(StateServices, CutsAStepShortThatIsUnderWay)
 {
   ask<std_srvs::Trigger>("/cloth/reset");
@@ -196,6 +314,8 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "state_services_rostest");
   const ros::NodeHandle node("~");
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
   state_folder = node.param<std::string>("state_folder", "");
   const int failed = RUN_ALL_TESTS();
   std::filesystem::remove_all(state_folder);

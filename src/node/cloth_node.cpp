@@ -59,7 +59,8 @@ std::uint64_t newLife()
   return static_cast<std::uint64_t>(source()) << 32 | source();
 }
 
-std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params)
+std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params,
+                                                  const Placement& placement)
 {
   const PlacedModel placed = placedModel(params);
   for (const std::string& finding : placed.findings)
@@ -68,6 +69,7 @@ std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params)
   }
   cloth::SimulationParams simulation_params = inClothFrame(params);
   simulation_params.life = newLife();
+  simulation_params.place = toWords(placement);
   auto simulation =
       std::make_unique<cloth::Simulation>(placed.model, placed.pinned, simulation_params);
   for (const std::string& note : simulation->startNotes())
@@ -88,7 +90,8 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , publisher_(node_, params, placement_)
     , clock_(node_, params)
     , requests_(publisher_)
-    , loop_(makeSimulation(params), loopOptions(params, follower_, publisher_, pull_ends_),
+    , loop_(makeSimulation(params, placement_),
+            loopOptions(params, follower_, publisher_, pull_ends_),
             [this](const cloth::Simulation& simulation, const cloth::StepReport& report)
             {
               clock_.onStep(simulation.time());

@@ -1,6 +1,7 @@
 // Moves data between the core's types and the messages.
 #include "cloth_tearing/node/conversions.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "cloth_tearing/core/checks.h"
@@ -24,6 +25,14 @@ constexpr double UNIT_TOLERANCE = 1e-3;  // what a quaternion's length may be of
 cloth::Quatd toQuaternion(const geometry_msgs::Quaternion& q)
 {
   return { q.w, q.x, q.y, q.z };
+}
+
+/// `value` as short as it reads back the very same.
+std::string inFull(double value)
+{
+  char digits[32];
+  const double unsigned_zero = value == 0.0 ? 0.0 : value;
+  return { digits, std::to_chars(digits, digits + sizeof digits, unsigned_zero).ptr };
 }
 
 std::uint32_t toId(cloth::ParticleId p)
@@ -112,6 +121,16 @@ void fillMarks(ClothSurface& message, const cloth::Surface& surface)
 }  // namespace
 
 // -- out -----------------------------------------------------------------------------------------
+
+std::string toWords(const Placement& placement)
+{
+  std::string words = placement.frame_id + " at (";
+  for (int i = 0; i < 3; ++i)
+  {
+    words += (i > 0 ? ", " : "") + inFull(placement.origin[i]);
+  }
+  return words + ")";
+}
 
 geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement)
 {
@@ -433,6 +452,8 @@ cloth::Sphere toCore(const CollisionSphere& sphere, const cloth::Pose& to_cloth)
   converted.velocity = to_cloth.rotation * toVector(sphere.velocity);
   converted.radius = sphere.radius;
   converted.mass = sphere.mass;
+  converted.frame = sphere.frame;
+  converted.center_in_frame = toVector(sphere.center);
   return converted;
 }
 

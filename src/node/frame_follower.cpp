@@ -18,23 +18,11 @@ bool same(const cloth::Pose& a, const cloth::Pose& b)
   return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-bool isThere(const cloth::Simulation& simulation, std::uint64_t sphere)
-{
-  return std::any_of(simulation.spheres().begin(), simulation.spheres().end(),
-                     [sphere](const cloth::Sphere& s)
-                     { return s.source == cloth::SphereSource::STREAMED && s.id == sphere; });
-}
-
 }  // namespace
 
 FrameFollower::FrameFollower(const Frames& frames, const NodeParams& params)
     : frames_(frames), timeout_(params.frame_timeout), lost_frame_(params.lost_frame)
 {
-}
-
-void FrameFollower::setSpheres(const std::vector<FramedSphere>& spheres)
-{
-  spheres_ = spheres;
 }
 
 void FrameFollower::beforeStep(cloth::Simulation& simulation)
@@ -54,56 +42,64 @@ void FrameFollower::beforeStep(cloth::Simulation& simulation)
     }
   }
   ++look_;
+  if (simulation.epoch() != epoch_)  // what a restored state holds may be far from where it belongs
+  {
+    sightings_.clear();
+    epoch_ = simulation.epoch();
+  }
   for (const Follower& follower : followers)
   {
     moveGrasp(simulation, follower.id, follower.frame, follower.lost);
   }
-  for (const FramedSphere& sphere : spheres_)
+  for (const cloth::Sphere& sphere : simulation.spheres())  // none comes or goes by being moved
   {
-    moveSphere(simulation, sphere);
+    if (!sphere.frame.empty())
+    {
+      moveSphere(simulation, sphere);
+    }
   }
-  for (auto way = ways_.begin(); way != ways_.end();)
+  for (auto at = sightings_.begin(); at != sightings_.end();)
   {
-    way = way->second.looked == look_ ? std::next(way) : ways_.erase(way);
+    at = at->second.looked == look_ ? std::next(at) : sightings_.erase(at);
   }
 }
 
-const FrameFollower::Way& FrameFollower::look(const std::string& frame)
+const FrameFollower::Sighting& FrameFollower::look(const std::string& frame)
 {
-  const bool known = ways_.count(frame) > 0;
-  Way& way = ways_[frame];
-  if (way.looked == look_)
+  const bool known = sightings_.count(frame) > 0;
+  Sighting& sighting = sightings_[frame];
+  if (sighting.looked == look_)
   {
-    return way;
+    return sighting;
   }
-  way.looked = look_;
+  sighting.looked = look_;
   const Frames::Latest latest = frames_.latest(frame);
   if (!latest.problem.empty())
   {
-    way.latest.problem = latest.problem;
-    way.fresh = false;
-    return way;
+    sighting.latest.problem = latest.problem;
+    sighting.fresh = false;
+    return sighting;
   }
-  way.fresh = !known || !way.latest.problem.empty() || latest.stamp != way.latest.stamp ||
-              !same(latest.pose, way.latest.pose);
-  if (way.fresh)
+  sighting.fresh = !known || !sighting.latest.problem.empty() ||
+                   latest.stamp != sighting.latest.stamp ||
+                   !same(latest.pose, sighting.latest.pose);
+  if (sighting.fresh)
   {
-    const double interval = (latest.stamp - way.latest.stamp).toSec();
-    way.interval =
+    const double interval = (latest.stamp - sighting.latest.stamp).toSec();
+    sighting.interval =
         known && interval > 0.0 ? std::min(interval, cloth::LONGEST_GLIDE) : cloth::LONGEST_GLIDE;
-    way.latest = latest;
+    sighting.latest = latest;
   }
-  return way;
+  return sighting;
 }
 
-/// Why a frame cannot be followed now; empty if it can.
-std::string FrameFollower::lossOf(const Way& way) const
+std::string FrameFollower::lossOf(const Frames::Latest& latest) const
 {
-  if (!way.latest.problem.empty() || way.latest.stamp.isZero())
+  if (!latest.problem.empty() || latest.stamp.isZero())
   {
-    return way.latest.problem;
+    return latest.problem;
   }
-  const double age = (ros::Time::now() - way.latest.stamp).toSec();
+  const double age = (ros::Time::now() - latest.stamp).toSec();
   return age > timeout_ ? "its newest transform is " + cloth::text(age) +
                               " s old, beyond frame_timeout = " + cloth::text(timeout_) + " s"
                         : "";
@@ -112,13 +108,13 @@ std::string FrameFollower::lossOf(const Way& way) const
 void FrameFollower::moveGrasp(cloth::Simulation& simulation, std::uint64_t id,
                               const std::string& frame, bool was_lost)
 {
-  const Way& way = look(frame);
-  std::string loss = lossOf(way);
-  if (loss.empty() && (way.fresh || was_lost))
+  const Sighting& sighting = look(frame);
+  std::string loss = lossOf(sighting.latest);
+  if (loss.empty() && (sighting.fresh || was_lost))
   {
     try
     {
-      simulation.follow(id, way.latest.pose, way.interval);
+      simulation.follow(id, sighting.latest.pose, sighting.interval);
     }
     catch (const cloth::Refusal& refusal)  // it leads out of the world
     {
@@ -140,16 +136,17 @@ void FrameFollower::moveGrasp(cloth::Simulation& simulation, std::uint64_t id,
   }
 }
 
-void FrameFollower::moveSphere(cloth::Simulation& simulation, const FramedSphere& sphere)
+void FrameFollower::moveSphere(cloth::Simulation& simulation, const cloth::Sphere& sphere)
 {
-  const Way& way = look(sphere.frame);
-  if (!way.fresh || !isThere(simulation, sphere.id))
+  const Sighting& sighting = look(sphere.frame);
+  if (!sighting.fresh)
   {
     return;
   }
   try
   {
-    simulation.moveSphere(sphere.id, way.latest.pose.apply(sphere.center), way.interval);
+    simulation.moveSphere(sphere.id, sighting.latest.pose.apply(sphere.center_in_frame),
+                          sighting.interval);
   }
   catch (const cloth::Refusal&)  // out of the world: it stays where it was to be last
   {

@@ -10,25 +10,6 @@
 namespace cloth_tearing
 {
 
-namespace
-{
-
-/// Those that follow a frame of their own.
-std::vector<FramedSphere> framedSpheres(const CollisionSpheres& message)
-{
-  std::vector<FramedSphere> framed;
-  for (const CollisionSphere& sphere : message.spheres)
-  {
-    if (!sphere.frame.empty())
-    {
-      framed.push_back({ sphere.id, sphere.frame, toVector(sphere.center) });
-    }
-  }
-  return framed;
-}
-
-}  // namespace
-
 SphereServices::SphereServices(const NodeContext& context) : context_(context)
 {
   context_.requests.serve<ThrowSphere>(context_.node, "throw_sphere",
@@ -47,19 +28,14 @@ void SphereServices::onThrowSphere(const ThrowSphere::Request& request,
 
 void SphereServices::onSpheres(const CollisionSpheres::ConstPtr& message)
 {
-  context_.requests.hear("spheres",
-                         [&]
-                         {
-                           cloth::refuseIf(problems(*message));
-                           const std::vector<FramedSphere> framed = framedSpheres(*message);
-                           const std::vector<cloth::Sphere> spheres = placed(*message);
-                           context_.loop.call(
-                               [&](cloth::Simulation& simulation)
-                               {
-                                 simulation.setSpheres(spheres);
-                                 context_.follower.setSpheres(framed);
-                               });
-                         });
+  context_.requests.hear(
+      "spheres",
+      [&]
+      {
+        cloth::refuseIf(problems(*message));
+        const std::vector<cloth::Sphere> spheres = placed(*message);
+        context_.loop.call([&](cloth::Simulation& simulation) { simulation.setSpheres(spheres); });
+      });
 }
 
 /// All spheres where they are now: each in the frame of its own, or in that of the header.

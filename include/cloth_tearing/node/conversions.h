@@ -29,6 +29,9 @@ struct Placement
   cloth::Vec3d origin = cloth::Vec3d::Zero();  ///< of the cloth frame, in frame_id [m]
 };
 
+/// "world at (0, 0, 1.5)": with all digits, so that different places never read the same.
+std::string toWords(const Placement& placement);
+
 // -- out -----------------------------------------------------------------------------------------
 
 /// `x` [m] of the cloth frame, in frame_id.
