@@ -45,6 +45,11 @@ void GraspServices::onGrasp(const Grasp::Request& request, Grasp::Response& resp
   if (!wish.followed.empty())
   {
     wish.frame = context_.frames.toCloth(wish.followed, ros::Time(0), "gripper_frame");
+    const std::string loss = context_.follower.lossOf(context_.frames.latest(wish.followed));
+    if (!loss.empty())
+    {
+      throw cloth::Refusal("gripper_frame " + wish.followed + ": " + loss);
+    }
   }
   const cloth::GraspTaken taken =
       context_.loop.call([&wish](cloth::Simulation& simulation) { return simulation.grasp(wish); });
