@@ -66,6 +66,11 @@ void ClothDisplay::addColoring()
   image_ = new rviz::StringProperty("Texture Image", DEFAULT_IMAGE,
                                     "package://PACKAGE/PATH or /absolute/path of an image.",
                                     coloring_, SLOT(updateImage()), this);
+  smooth_image_ = new rviz::BoolProperty("Smooth Image", true,
+                                         "Average the image where it is seen from afar. Without a "
+                                         "graphics card, very fine cloth is drawn "
+                                         "about twice as fast without.",
+                                         coloring_, SLOT(updateStyle()), this);
   low_strain_ = new rviz::FloatProperty("Lowest Strain", 0.0F, "Strain that is shown blue [-].",
                                         coloring_, SLOT(updateStyle()), this);
   high_strain_ = new rviz::FloatProperty("Highest Strain", 0.2F, "Strain that is shown red [-].",
@@ -131,6 +136,7 @@ ClothStyle ClothDisplay::style() const
 {
   ClothStyle style;
   style.coloring = static_cast<ClothStyle::Coloring>(coloring_->getOptionInt());
+  style.smooth_image = smooth_image_->getBool();
   const float low = low_strain_->getFloat();
   style.strain_range = { low, std::max(high_strain_->getFloat(), low + LEAST_RANGE) };
   style.plain_color = plain_color_->getOgreColor();
@@ -147,6 +153,7 @@ void ClothDisplay::updateStyle()
 {
   const ClothStyle wanted = style();
   image_->setHidden(wanted.coloring != ClothStyle::Coloring::TEXTURE);
+  smooth_image_->setHidden(wanted.coloring != ClothStyle::Coloring::TEXTURE);
   for (rviz::Property* property :
        { static_cast<rviz::Property*>(low_strain_), static_cast<rviz::Property*>(high_strain_),
          static_cast<rviz::Property*>(legend_) })

@@ -20,8 +20,6 @@ namespace
 constexpr float FROM_EVERYWHERE = 0.35F;
 constexpr float FROM_CAMERA = 0.70F;
 
-constexpr int ANISOTROPY = 8;  // cloth is often seen at a low angle
-
 std::string newName()
 {
   static int count = 0;
@@ -94,8 +92,8 @@ void ClothMaterial::paint(const ClothStyle& style)
         surface_->createTextureUnitState((strain ? strain_ : image_)->getName());
     unit->setTextureAddressingMode(strain ? Ogre::TextureUnitState::TAM_CLAMP
                                           : Ogre::TextureUnitState::TAM_WRAP);
-    unit->setTextureFiltering(strain ? Ogre::TFO_BILINEAR : Ogre::TFO_ANISOTROPIC);
-    unit->setTextureAnisotropy(ANISOTROPY);
+    unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR,
+                              image && style.smooth_image ? Ogre::FO_LINEAR : Ogre::FO_NONE);
   }
   surface_->setAmbient(Ogre::ColourValue::Black);
   surface_->setSelfIllumination(dimmed(color, FROM_EVERYWHERE));

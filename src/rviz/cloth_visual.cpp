@@ -9,6 +9,8 @@ namespace cloth_tearing
 namespace
 {
 
+constexpr float LINE_DEPTH_BIAS = 4.0F;  // torn edges lie before the wireframe
+
 Ogre::Vector3 toOgre(const cloth::Vec3& x)
 {
   return { x.x(), x.y(), x.z() };
@@ -41,6 +43,7 @@ ClothVisual::ClothVisual(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
     , held_(makeSpheres(node_, "held"))
 {
   node_->attachObject(triangles_.get());
+  torn_edges_->getMaterial()->setDepthBias(LINE_DEPTH_BIAS, LINE_DEPTH_BIAS);
 }
 
 ClothVisual::~ClothVisual()

@@ -88,6 +88,7 @@ private:
 
   rviz::EnumProperty* coloring_;
   rviz::StringProperty* image_;
+  rviz::BoolProperty* smooth_image_;
   rviz::FloatProperty* low_strain_;
   rviz::FloatProperty* high_strain_;
   StrainLegend* legend_;

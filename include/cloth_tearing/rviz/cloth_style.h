@@ -27,6 +27,7 @@ struct ClothStyle
   };
 
   Coloring coloring = Coloring::TEXTURE;
+  bool smooth_image = true;  ///< from afar; costs time where no graphics card does it
   std::array<float, 2> strain_range = { { 0.0F, 0.2F } };  ///< from blue to red [-]
   Ogre::ColourValue plain_color;
   bool wireframe = false;
