@@ -67,7 +67,7 @@ void ClothVisual::setPose(const Ogre::Vector3& position, const Ogre::Quaternion&
 
 void ClothVisual::hide()
 {
-  triangles_->setVisible(false);
+  triangles_->hide();
   torn_edges_->clear();
   weak_points_->clear();
   held_->clear();

@@ -38,7 +38,6 @@ MeshRenderable::MeshRenderable(const Ogre::MaterialPtr& material) : material_(ma
   layout->addElement(0, offsetof(BufferVertex, texture), Ogre::VET_FLOAT2,
                      Ogre::VES_TEXTURE_COORDINATES, 0);
   reserve(1, 3);
-  setVisible(false);
 }
 
 MeshRenderable::~MeshRenderable()
@@ -73,7 +72,7 @@ void MeshRenderable::setTriangles(const std::vector<std::uint32_t>& indices,
   reserve(2 * vertex_count, 2 * indices.size());
   mRenderOp.vertexData->vertexCount = 2 * vertex_count;
   mRenderOp.indexData->indexCount = 2 * indices.size();
-  setVisible(false);
+  hide();
   if (indices.empty())
   {
     return;
@@ -95,7 +94,7 @@ void MeshRenderable::setVertices(const std::vector<BufferVertex>& vertices)
 {
   if (vertices.empty())
   {
-    setVisible(false);
+    hide();
     return;
   }
   auto* target =
@@ -119,7 +118,15 @@ void MeshRenderable::setVertices(const std::vector<BufferVertex>& vertices)
   {
     getParentNode()->needUpdate();
   }
-  setVisible(true);
+  drawn_ = true;
+}
+
+void MeshRenderable::_updateRenderQueue(Ogre::RenderQueue* queue)
+{
+  if (drawn_)
+  {
+    SimpleRenderable::_updateRenderQueue(queue);
+  }
 }
 
 Ogre::Real MeshRenderable::getSquaredViewDepth(const Ogre::Camera* camera) const

@@ -36,6 +36,10 @@ public:
   /// Writes all vertices of these triangles into the buffer that is there.
   void setVertices(const std::vector<BufferVertex>& vertices);
 
+  /// Draws nothing until the next setVertices(), whatever the node above makes visible.
+  void hide() { drawn_ = false; }
+
+  void _updateRenderQueue(Ogre::RenderQueue* queue) override;
   const Ogre::MaterialPtr& getMaterial() const override { return material_; }
   Ogre::Real getBoundingRadius() const override { return radius_; }
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
@@ -48,6 +52,7 @@ private:
   std::size_t vertex_capacity_ = 0;
   std::size_t index_capacity_ = 0;
   Ogre::Real radius_ = 0.0F;
+  bool drawn_ = false;
 };
 
 }  // namespace cloth_tearing
