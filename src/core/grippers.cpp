@@ -50,6 +50,33 @@ std::vector<ParticleId> within(const Cloth& cloth, const GraspRequest& request, 
   return inside;
 }
 
+/// @param nearest how far the nearest free particle is [m]
+/// @throws Refusal if there is nothing inside, or another grasp holds some of it
+void refuseUnlessFree(const Cloth& cloth, const GraspRequest& request,
+                      const std::vector<ParticleId>& inside, double max_distance, double nearest)
+{
+  if (inside.empty())
+  {
+    const double reach = request.radius > 0.0 ? request.radius : max_distance;
+    const std::string limit = request.radius > 0.0 ? "radius" : "max_grasp_distance";
+    if (std::isinf(nearest))
+    {
+      throw Refusal("there is no particle to take hold of: all are pinned or were put to rest");
+    }
+    throw Refusal("there is no particle within " + text(reach) + " m (" + limit +
+                  ") of the point; the nearest that is not pinned is " + text(nearest) + " m away");
+  }
+  for (ParticleId p : inside)
+  {
+    const Attachment& attachment = cloth.attachments[p.index];
+    if (attachment.held())
+    {
+      throw Refusal("particle " + std::to_string(p.index) + " is held by grasp " +
+                    std::to_string(attachment.grasp) + ": release that first");
+    }
+  }
+}
+
 }  // namespace
 
 GraspTaken Grippers::take(Cloth& cloth, const GraspRequest& request, double max_distance)
@@ -67,27 +94,7 @@ GraspTaken Grippers::take(Cloth& cloth, const GraspRequest& request, double max_
 
   GraspTaken taken;
   const std::vector<ParticleId> inside = within(cloth, request, max_distance, taken.distance);
-  if (inside.empty())
-  {
-    const double reach = request.radius > 0.0 ? request.radius : max_distance;
-    const std::string limit = request.radius > 0.0 ? "radius" : "max_grasp_distance";
-    if (std::isinf(taken.distance))
-    {
-      throw Refusal("there is no particle to take hold of: all are pinned or were put to rest");
-    }
-    throw Refusal("there is no particle within " + text(reach) + " m (" + limit +
-                  ") of the point; the nearest that is not pinned is " + text(taken.distance) +
-                  " m away");
-  }
-  for (ParticleId p : inside)
-  {
-    const Attachment& attachment = cloth.attachments[p.index];
-    if (attachment.held())
-    {
-      throw Refusal("particle " + std::to_string(p.index) + " is held by grasp " +
-                    std::to_string(attachment.grasp) + ": release that first");
-    }
-  }
+  refuseUnlessFree(cloth, request, inside, max_distance, taken.distance);
 
   Grasp grasp;
   grasp.id = next_++;

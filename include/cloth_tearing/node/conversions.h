@@ -74,7 +74,7 @@ const char* name(cloth::Pace pace);
 // -- in ------------------------------------------------------------------------------------------
 
 /// Everything wrong with a request or message by itself, whatever the cloth: values that are not
-/// finite, fields that are not served yet. One sentence each, naming field, value and limit.
+/// finite, fields that contradict each other. One sentence each, naming field, value and limit.
 std::vector<std::string> problems(const Grasp::Request& request);
 std::vector<std::string> problems(const Drag::Request& request);
 std::vector<std::string> problems(const ThrowSphere::Request& request);
