@@ -1,0 +1,124 @@
+// Calls services for a window, which must not wait for them.
+#pragma once
+
+#ifndef Q_MOC_RUN
+#include <ros/node_handle.h>
+#include <ros/service_client.h>
+
+#include <QObject>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#endif
+
+namespace cloth_tearing
+{
+
+/// Makes calls one after the other on a thread of its own and hands their answers to the thread
+/// that it was made in, between the events of that thread.
+class ServiceCaller : public QObject
+{
+public:
+  /// What came of a call.
+  template <class Response>
+  struct Answer
+  {
+    std::string problem;  ///< why it was not done, in words; empty = done
+    Response response;    ///< as far as there is one
+
+    bool done() const { return problem.empty(); }
+  };
+
+  template <class Service>
+  using Callback = std::function<void(const Answer<typename Service::Response>&)>;
+
+  ServiceCaller();
+
+  /// Gives calls that are left a second to be done; the rest is cut short. Nobody is told any more.
+  ~ServiceCaller() override;
+
+  ServiceCaller(const ServiceCaller&) = delete;
+  ServiceCaller& operator=(const ServiceCaller&) = delete;
+
+  /// Calls `name` when its turn has come, and then `callback`, which outlives nobody: it is not
+  /// called once this object is gone. Answers with `success` false count as not done, with their
+  /// `message` for the reason.
+  template <class Service>
+  void call(const std::string& name, const typename Service::Request& request,
+            Callback<Service> callback)
+  {
+    enqueue(
+        [this, name, request, callback]
+        {
+          Answer<typename Service::Response> answer;
+          answer.problem = transact<Service>(name, request, answer.response);
+          deliver([callback, answer] { callback(answer); });
+        });
+  }
+
+  /// For how long the call under way has been waiting for its answer [s]; 0 = none is under way.
+  double waiting() const;
+
+private:
+  using Clock = std::chrono::steady_clock;
+  using Work = std::function<void()>;
+
+  template <class Service>
+  std::string transact(const std::string& name, const typename Service::Request& request,
+                       typename Service::Response& response)
+  {
+    ros::NodeHandle node;
+    // Only a lasting connection can be cut while somebody waits for the answer.
+    ros::ServiceClient client = node.serviceClient<Service>(name, true);
+    if (!client.isValid())
+    {
+      return "there is no service " + node.resolveName(name) + ": its node is not running";
+    }
+    if (!begin(client))
+    {
+      return "ended";
+    }
+    typename Service::Request sent = request;
+    const bool answered = client.call(sent, response);
+    end();
+    return answered ? refusalIn(response, 0) : node.resolveName(name) + " was not answered";
+  }
+
+  template <class Response>
+  static auto refusalIn(const Response& response, int) -> decltype(response.success, std::string())
+  {
+    return response.success ? std::string() : std::string(response.message);
+  }
+
+  /// Of answers that cannot say no.
+  template <class Response>
+  static std::string refusalIn(const Response& /*response*/, long)
+  {
+    return {};
+  }
+
+  void enqueue(Work work);
+  void run();
+  bool begin(const ros::ServiceClient& client);
+  void end();
+  void deliver(Work tell);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Work> waiting_;  ///< guarded by mutex_, as is what follows
+  ros::ServiceClient under_way_;
+  bool calling_ = false;
+  bool busy_ = false;  ///< with one that was taken off the queue
+  Clock::time_point since_;
+  bool ending_ = false;
+
+  std::thread thread_;  ///< last: it starts when everything else is there
+};
+
+}  // namespace cloth_tearing
