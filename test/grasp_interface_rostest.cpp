@@ -250,6 +250,21 @@ TEST_F(GraspInterface, PinsHoldAndLetGo)
   expectRefused([&] { free_.pin(at(5.0, TOP), 0.01); }, "0.01");
 }
 
+TEST_F(GraspInterface, WhatAGraspHeldIsPinnedInTheInstantThatItLetsGo)
+{
+  const std::uint64_t grasp = cloth_.grasp(at(0.0, BOTTOM), 0.05).grasp_id;
+  cloth_.drag(grasp, at(0.1, BOTTOM), 1.0);
+  cloth_.step(50);
+  const geometry_msgs::Point place = stateOf(cloth_, grasp).pose.position;
+
+  cloth_.release(grasp, true);
+
+  EXPECT_TRUE(states(cloth_).grasps.empty());
+  cloth_.step(500);
+  EXPECT_EQ(cloth_.unpin(place, 0.005), 1u) << "the middle of the patch has not moved";
+  expectRefused([&] { cloth_.release(grasp, true); }, "there is no grasp");
+}
+
 TEST_F(GraspInterface, APullArrives)
 {
   const std::uint64_t grasp = cloth_.grasp(at(0.0, BOTTOM), 0.05).grasp_id;

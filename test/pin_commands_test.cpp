@@ -105,6 +105,64 @@ TEST_F(PinnedByCommand, ParticlesOfAGraspAreRefusedByItsName)
   EXPECT_TRUE(simulation.cloth().attachments[60].held());
 }
 
+TEST_F(PinnedByCommand, WhatAGraspHeldStandsStillInTheInstantThatItLetsGo)
+{
+  GraspRequest request;
+  request.point = Vec3d(0.0, -0.5, 0.0);
+  request.radius = 0.11;
+  request.frame.position = request.point;
+  const std::uint64_t moved = simulation.grasp(request).id;
+  simulation.steer(moved, { Vec3d(0.0, -0.5, 0.05), Quatd::Identity() }, 0.01);
+  run(simulation, 5);
+  const std::vector<Vec3> before = simulation.cloth().state.position;
+
+  simulation.release(moved, "done", AfterGrasp::PINNED);
+
+  EXPECT_TRUE(simulation.grasps().empty());
+  run(simulation, 50);
+  for (int p : { 49, 59, 60, 61, 71 })
+  {
+    EXPECT_TRUE(pinned(p)) << p;
+    EXPECT_EQ(simulation.cloth().state.position[p], before[p]) << p;
+  }
+  EXPECT_FALSE(pinned(48)) << "it was not held";
+}
+
+TEST_F(PinnedByCommand, AllThatIsLetGoCanStandStill)
+{
+  GraspRequest one;
+  one.point = Vec3d(0.0, -0.5, 0.0);
+  GraspRequest other;
+  other.point = Vec3d(0.5, -1.0, 0.0);
+  simulation.grasp(one);
+  simulation.grasp(other);
+  EXPECT_EQ(simulation.releaseAll(AfterGrasp::PINNED), 2);
+  EXPECT_TRUE(pinned(60));
+  EXPECT_TRUE(pinned(120));
+}
+
+// Two grasps hold a sheet that nothing else holds: whichever lets go first leaves the other with a
+// loose piece, unless what it held stays pinned.
+TEST_F(PinnedByCommand, APatchThatStaysPinnedLeavesNoLoosePieceToOtherGrasps)
+{
+  const auto told = [this](AfterGrasp after)
+  {
+    simulation.reset();
+    simulation.unpin(ids({ 0 }));
+    GraspRequest one;
+    one.point = Vec3d(0.0, -0.5, 0.0);
+    GraspRequest other;
+    other.point = Vec3d(0.5, -1.0, 0.0);
+    const std::uint64_t first = simulation.grasp(one).id;
+    simulation.grasp(other);
+    simulation.release(first, "done", after);
+    const auto last = simulation.graspEventsSince(simulation.loggedGraspEvents()[1], 1);
+    return last.at(0).kind;
+  };
+  EXPECT_EQ(told(AfterGrasp::FREE), GraspEventKind::HOLDS_LOOSE_PIECE);
+  EXPECT_EQ(told(AfterGrasp::PINNED), GraspEventKind::RELEASED);
+}
+
 TEST_F(PinnedByCommand, RequestsThatNameNothingAreRefused)
 {
   const auto nothing = "radius [m] is 0 and particles is empty: name a ball or particles";

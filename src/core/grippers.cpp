@@ -305,9 +305,8 @@ bool Grippers::endPull(Cloth& cloth, std::size_t place, PullOutcome outcome,
   return release;
 }
 
-/// The particles keep their velocities.
 void Grippers::letGo(Cloth& cloth, std::size_t place, GraspEventKind kind,
-                     const std::string& reason)
+                     const std::string& reason, AfterGrasp after)
 {
   const Grasp& grasp = grasps_[place];
   if (grasp.pull)
@@ -317,26 +316,26 @@ void Grippers::letGo(Cloth& cloth, std::size_t place, GraspEventKind kind,
   tell(grasp, kind, reason);
   for (const Grasp::Held& held : grasp.held)
   {
-    const Vec3 velocity = cloth.state.velocity[held.particle.index];
-    cloth.attach(held.particle, {});
-    cloth.state.velocity[held.particle.index] = velocity;
+    const bool pinned = after == AfterGrasp::PINNED;
+    cloth.attach(held.particle, { pinned ? Attachment::Kind::PIN : Attachment::Kind::NONE, 0 });
   }
   grasps_.erase(grasps_.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-void Grippers::release(Cloth& cloth, std::uint64_t grasp, const std::string& reason)
+void Grippers::release(Cloth& cloth, std::uint64_t grasp, const std::string& reason,
+                       AfterGrasp after)
 {
   const auto place = static_cast<std::size_t>(&find(grasp) - grasps_.data());
-  letGo(cloth, place, GraspEventKind::RELEASED, reason);
+  letGo(cloth, place, GraspEventKind::RELEASED, reason, after);
   findLoosePieces(cloth, "grasp " + std::to_string(grasp) + " let go");
 }
 
-int Grippers::releaseAll(Cloth& cloth, const std::string& reason)
+int Grippers::releaseAll(Cloth& cloth, const std::string& reason, AfterGrasp after)
 {
   const int released = static_cast<int>(grasps_.size());
   while (!grasps_.empty())
   {
-    letGo(cloth, 0, GraspEventKind::RELEASED, reason);
+    letGo(cloth, 0, GraspEventKind::RELEASED, reason, after);
   }
   return released;
 }

@@ -447,17 +447,17 @@ std::vector<PullProgress> Simulation::pulls() const
   return under_way;
 }
 
-void Simulation::release(std::uint64_t grasp, const std::string& reason)
+void Simulation::release(std::uint64_t grasp, const std::string& reason, AfterGrasp after)
 {
   keepBalance();
-  grippers_.release(cloth_, grasp, reason);
+  grippers_.release(cloth_, grasp, reason, after);
   publish();
 }
 
-int Simulation::releaseAll()
+int Simulation::releaseAll(AfterGrasp after)
 {
   keepBalance();
-  const int released = grippers_.releaseAll(cloth_, "released on request, with all others");
+  const int released = grippers_.releaseAll(cloth_, "released on request, with all others", after);
   publish();
   return released;
 }

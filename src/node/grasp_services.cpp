@@ -77,14 +77,17 @@ void GraspServices::onDrag(const Drag::Request& request)
 void GraspServices::onRelease(const Release::Request& request, Release::Response& response)
 {
   const std::uint64_t id = request.grasp_id;
+  const bool pin = request.pin != 0;
+  const cloth::AfterGrasp after = pin ? cloth::AfterGrasp::PINNED : cloth::AfterGrasp::FREE;
   response.released = static_cast<std::uint32_t>(context_.loop.call(
-      [id](cloth::Simulation& simulation)
+      [id, pin, after](cloth::Simulation& simulation)
       {
         if (id == 0)
         {
-          return simulation.releaseAll();
+          return simulation.releaseAll(after);
         }
-        simulation.release(id);
+        simulation.release(id, pin ? "released on request, and pinned" : "released on request",
+                           after);
         return 1;
       }));
 }

@@ -102,10 +102,12 @@ public:
   }
 
   /// @param grasp 0 = all
-  void release(std::uint64_t grasp = 0) const
+  /// @param pin whether what it held is pinned where it is
+  void release(std::uint64_t grasp = 0, bool pin = false) const
   {
     Release::Request request;
     request.grasp_id = grasp;
+    request.pin = pin;
     call<Release>("release", request);
   }
 

@@ -41,6 +41,13 @@ struct PullRequest
   bool release = false;     ///< let go when it ends, unless another command moves the grasp on
 };
 
+/// What becomes of the particles that a grasp lets go.
+enum class AfterGrasp
+{
+  FREE,    ///< they go on with the velocities that they have
+  PINNED,  ///< they stand still where they are, as after pin()
+};
+
 /// Who holds which particles, what that takes, and how grasps move. Grasps are numbered 1, 2, ...
 /// for its life, and so are pulls.
 ///
@@ -94,11 +101,12 @@ public:
   /// The grasp stands still where it is. @return whether there was such a pull
   bool cancelPull(Cloth& cloth, std::uint64_t pull);
 
-  /// Lets go; the particles keep their velocities. @throws Refusal if there is no such grasp
-  void release(Cloth& cloth, std::uint64_t grasp, const std::string& reason);
+  /// Lets go. @throws Refusal if there is no such grasp
+  void release(Cloth& cloth, std::uint64_t grasp, const std::string& reason,
+               AfterGrasp after = AfterGrasp::FREE);
 
   /// Lets go of everything. @return how many grasps there were
-  int releaseAll(Cloth& cloth, const std::string& reason);
+  int releaseAll(Cloth& cloth, const std::string& reason, AfterGrasp after = AfterGrasp::FREE);
 
   /// Moves all grasps for `dt` [s], and their particles with them.
   void carry(ParticleState& state, double dt, const GripperLimits& limits);
@@ -146,7 +154,8 @@ private:
   void tell(const Grasp& grasp, GraspEventKind kind, const std::string& reason);
   void end(const Grasp& grasp, PullOutcome outcome, const std::string& message);
   void takeOver(Grasp& grasp);
-  void letGo(Cloth& cloth, std::size_t place, GraspEventKind kind, const std::string& reason);
+  void letGo(Cloth& cloth, std::size_t place, GraspEventKind kind, const std::string& reason,
+             AfterGrasp after = AfterGrasp::FREE);
   void glide(Grasp& grasp, const Pose& pose, double time);
   bool endPull(Cloth& cloth, std::size_t place, PullOutcome outcome, const std::string& message);
   bool concludePull(Cloth& cloth, std::size_t place, double dt);

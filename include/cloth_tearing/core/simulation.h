@@ -174,10 +174,11 @@ public:
   bool cancelPull(std::uint64_t pull);
 
   /// Lets go. @throws Refusal if there is no such grasp
-  void release(std::uint64_t grasp, const std::string& reason = "released on request");
+  void release(std::uint64_t grasp, const std::string& reason = "released on request",
+               AfterGrasp after = AfterGrasp::FREE);
 
   /// Lets go of everything. @return how many grasps there were
-  int releaseAll();
+  int releaseAll(AfterGrasp after = AfterGrasp::FREE);
 
   /// Particles stand still from now on, until unpin() or reset(). See cloth::pin.
   int pin(const PinRequest& request);
