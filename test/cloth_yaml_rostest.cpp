@@ -69,6 +69,7 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_EQ(shipped.cloth_pose.position, compiled.cloth_pose.position);
   EXPECT_TRUE(shipped.cloth_pose.rotation.isApprox(compiled.cloth_pose.rotation, 1e-7));
   EXPECT_EQ(shipped.pace, compiled.pace);
+  EXPECT_EQ(shipped.speed, compiled.speed);
   EXPECT_EQ(shipped.paused, compiled.paused);
   EXPECT_EQ(shipped.publish_clock, compiled.publish_clock);
   EXPECT_EQ(shipped.clock_rate, compiled.clock_rate);

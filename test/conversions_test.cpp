@@ -191,6 +191,7 @@ TEST(StatusMessage, CountsTearsByKind)
   source.summary.tears = { 1, 2, 3, 4 };
   source.summary.utilisation_at = cloth::Vec3d(1.0, 1.0, 1.0);
   source.loop.pace = cloth::Pace::FREE;
+  source.loop.speed = 0.25;
   source.loop.clock_jumps = 6;
   source.refusals = 5;
   source.last_refusal = "grasp: no";
@@ -203,6 +204,7 @@ TEST(StatusMessage, CountsTearsByKind)
   EXPECT_EQ(message.released_springs, 4u);
   EXPECT_EQ(message.utilisation_at.y, 21.0);
   EXPECT_EQ(message.pace, "free");
+  EXPECT_EQ(message.speed, 0.25);
   EXPECT_EQ(message.clock_jumps, 6u);
   EXPECT_EQ(message.refusals, 5u);
   EXPECT_EQ(message.last_refusal, "grasp: no");

@@ -34,7 +34,7 @@ TEST(SolverEntry, IsAsBadAsTheWorst)
   source.loop.real_time_factor = 1.0;
   EXPECT_EQ(solver(source).level, DiagnosticStatus::OK);
   source.loop.real_time_factor = 0.5;
-  EXPECT_EQ(solver(source).message, "slower than real time");
+  EXPECT_EQ(solver(source).message, "slower than it should be");
   EXPECT_EQ(solver(source).level, DiagnosticStatus::WARN);
   source.loop.awaits_clock = true;
   EXPECT_EQ(solver(source).message, "waits for a clock to follow");
@@ -60,6 +60,21 @@ TEST(SolverEntry, IsNotLateWhereRealTimeIsNotItsPace)
   }
 }
 
+TEST(SolverEntry, IsLateByTheSpeedThatIsWanted)
+{
+  StatusSource source;
+  source.time_step = 0.001;
+  source.loop.speed = 2.0;
+  source.loop.real_time_factor = 1.0;
+  EXPECT_EQ(solver(source).level, DiagnosticStatus::WARN);
+  source.loop.speed = 0.1;
+  source.loop.real_time_factor = 0.1;
+  EXPECT_EQ(solver(source).level, DiagnosticStatus::OK);
+  source.loop.speed = 0.0019;  // at times one step a second, at times two
+  source.loop.real_time_factor = 0.001;
+  EXPECT_EQ(solver(source).level, DiagnosticStatus::OK);
+}
+
 TEST(SolverEntry, IsLateWhereItFallsBehindTheClockThatItFollows)
 {
   StatusSource source;
@@ -73,6 +88,7 @@ TEST(SolverEntry, IsLateWhereItFallsBehindTheClockThatItFollows)
 TEST(SolverEntry, TellsHowItRuns)
 {
   StatusSource source;
+  source.loop.speed = 2.0;
   source.loop.real_time_factor = 0.97;
   source.loop.clock_jumps = 3;
   source.loop.lost_time = 1.5;
@@ -84,6 +100,7 @@ TEST(SolverEntry, TellsHowItRuns)
 
   EXPECT_EQ(value(entry, "pace"), "wall");
   EXPECT_EQ(value(entry, "substeps a step"), "1");
+  EXPECT_EQ(value(entry, "speed"), "2");
   EXPECT_EQ(value(entry, "real-time factor"), "0.97");
   EXPECT_EQ(value(entry, "clock jumps"), "3");
   EXPECT_EQ(value(entry, "lost time [s]"), "1.5");

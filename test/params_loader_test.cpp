@@ -62,6 +62,7 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   XmlRpcValue tree;
   tree["frame_id"] = "map";
   tree["pace"] = "step";
+  tree["speed"] = 0.25;
   tree["paused"] = true;
   tree["cloth_pose"]["position"] = list({ 1, 2.5, -3 });
   tree["cloth_pose"]["rotation"] = list({ 0, 0, 1, 0 });
@@ -84,6 +85,7 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   const cloth_tearing::NodeParams& params = loaded.params;
   EXPECT_EQ(params.frame_id, "map");
   EXPECT_EQ(params.pace, cloth::Pace::STEP);
+  EXPECT_EQ(params.speed, 0.25);
   EXPECT_TRUE(params.paused);
   EXPECT_EQ(params.cloth_pose.position, cloth::Vec3d(1.0, 2.5, -3.0));
   EXPECT_EQ(params.cloth_pose.rotation.z(), 1.0);
@@ -254,6 +256,7 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "", "frame_id", "/world", "must not begin with a slash" },
     { "", "paused", 1, "must be true or false" },
     { "", "pace", "", "must be one of clock, free, step, wall" },
+    { "", "speed", 0, "speed is 0" },
     { "", "clock_rate", 0, "clock_rate [Hz] is 0" },
     { "", "state_folder", "states", "must be an absolute path" },
     { "", "max_states", 0, "max_states is 0" },

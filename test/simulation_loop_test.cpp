@@ -281,12 +281,74 @@ TEST(LoopPace, WallNeverRunsAheadOfTheClock)
       }));
 }
 
+TEST(LoopPace, WallGoesByItsSpeed)
+{
+  SimulationLoop::Options slow = options(Pace::WALL);
+  slow.speed = 0.1;
+  const Clock::time_point start = Clock::now();
+  SimulationLoop loop(smallSimulation(), slow, ignore);
+  const auto elapsed = [&](Clock::time_point since)
+  { return std::chrono::duration<double>(Clock::now() - since).count(); };
+  const auto time = [&] { return loop.call([](Simulation& s) { return s.time(); }); };
+  ASSERT_TRUE(eventually(
+      [&]
+      {
+        const double now = time();
+        EXPECT_LT(now, 0.1 * elapsed(start) + 0.002);
+        return now > 0.03 || ::testing::Test::HasFailure();
+      }));
+
+  const Clock::time_point change = Clock::now();
+  const double before = time();
+  loop.tune([](LoopTuning& tuning) { tuning.speed = 4.0; });
+
+  EXPECT_TRUE(eventually([&] { return time() - before > 1.0 + elapsed(change); }))
+      << "faster than real time";
+  EXPECT_EQ(loop.state().speed, 4.0);
+}
+
 TEST(LoopPace, SaysHowItKeepsUp)
 {
   SimulationLoop loop(smallSimulation(), options(Pace::WALL), ignore);
   EXPECT_TRUE(eventually([&] { return loop.state().real_time_factor > 0.0; }));
   EXPECT_LT(loop.state().real_time_factor, 1.2);
   EXPECT_EQ(loop.state().pace, Pace::WALL);
+}
+
+TEST(LoopTunings, AreAllOfItOrNothing)
+{
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP), ignore);
+  const LoopTuning before = loop.tuning();
+  EXPECT_EQ(before.speed, 1.0);
+  for (const auto& [speed, max_strain] : { std::pair(0.0, 0.2), std::pair(2.0, 0.0) })
+  {
+    EXPECT_THROW(loop.tune(
+                     [&, speed = speed, max_strain = max_strain](LoopTuning& tuning)
+                     {
+                       tuning.speed = speed;
+                       tuning.max_strain = max_strain;
+                     }),
+                 Refusal);
+    EXPECT_EQ(loop.tuning().speed, before.speed);
+    EXPECT_EQ(loop.tuning().max_strain, before.max_strain);
+  }
+
+  loop.tune(
+      [](LoopTuning& tuning)
+      {
+        tuning.speed = 2.0;
+        tuning.max_strain = 0.2;
+      });
+
+  EXPECT_EQ(loop.tuning().speed, 2.0);
+  EXPECT_EQ(loop.tuning().max_strain, 0.2);
+}
+
+TEST(LoopPace, HasNoSpeedOfZero)
+{
+  SimulationLoop::Options stopped = options(Pace::WALL);
+  stopped.speed = 0.0;
+  EXPECT_THROW(SimulationLoop(smallSimulation(), stopped, ignore), std::invalid_argument);
 }
 
 TEST(LoopPace, CanStartPaused)

@@ -12,10 +12,7 @@ namespace
 /// The loop wakes this often at most when it keeps real time, and does what is due in one go.
 constexpr std::chrono::milliseconds SLICE{ 4 };
 
-/// Time lost beyond this is not made up for: a machine that is too slow runs late, not wild.
-constexpr std::chrono::milliseconds CATCH_UP{ 100 };
-
-/// How often an idle loop looks up although nobody called.
+/// How often a loop that waits looks up although nobody called.
 constexpr std::chrono::seconds IDLE{ 1 };
 
 constexpr std::chrono::milliseconds MEASURE_INTERVAL{ 1000 };
@@ -25,6 +22,12 @@ const SimulationLoop::Options& checked(const SimulationLoop::Options& options)
   if (options.pace == Pace::CLOCK && !options.clock)
   {
     throw std::invalid_argument("Pace::CLOCK needs a clock to follow");
+  }
+  std::vector<std::string> found;
+  checkSpeed(found, options.speed);
+  if (!found.empty())
+  {
+    throw std::invalid_argument(found.front());
   }
   return options;
 }
@@ -37,6 +40,8 @@ SimulationLoop::SimulationLoop(std::unique_ptr<Simulation> simulation, const Opt
     , listener_(std::move(listener))
     , simulation_(std::move(simulation))
     , paused_(options.paused)
+    , speed_(options.speed)
+    , pacer_(options.speed, Clock::now())
     , follower_(simulation_->params().solver.time_step)
     , measured_at_(Clock::now())
     , measured_time_(simulation_->time())
@@ -61,7 +66,6 @@ void SimulationLoop::stop()
 
 void SimulationLoop::run()
 {
-  Clock::time_point due = Clock::now();
   while (!ending_)
   {
     queue_.runAll(*simulation_);
@@ -75,9 +79,8 @@ void SimulationLoop::run()
     }
     else if (paused_ || options_.pace == Pace::STEP)
     {
-      due = Clock::now();
       followAnew();
-      queue_.waitUntil(due + IDLE);
+      queue_.waitUntil(Clock::now() + IDLE);
     }
     else if (options_.pace == Pace::FREE)
     {
@@ -89,7 +92,7 @@ void SimulationLoop::run()
     }
     else
     {
-      keepPace(due);
+      keepPace();
     }
     tellJump(lost_.tell(Clock::now()));
     measure();
@@ -101,20 +104,33 @@ void SimulationLoop::run()
 }
 
 /// Steps until simulated time has caught up with the clock, or a command waits no longer.
-void SimulationLoop::keepPace(Clock::time_point& due)
+void SimulationLoop::keepPace()
 {
-  const auto dt = std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(simulation_->params().solver.time_step));
+  const double time_step = simulation_->params().solver.time_step;
   const Clock::time_point start = Clock::now();
-  due = std::max(due, start - CATCH_UP);
-  while (due <= start && Clock::now() < start + SLICE && !paused_)
+  pacer_.look(start);
+  while (pacer_.stepDue() && Clock::now() < start + SLICE && !paused_)
   {
     oneStep();
-    due += dt;
+    pacer_.stepped(time_step);
   }
-  if (due > start)
+  if (!pacer_.stepDue())
   {
-    queue_.waitUntil(std::max(due, start + SLICE));
+    queue_.waitUntil(std::clamp(pacer_.due(), start + SLICE, start + IDLE));
+  }
+}
+
+/// What was measured at another speed says nothing of this one.
+void SimulationLoop::setSpeed(double speed)
+{
+  if (speed != speed_)
+  {
+    const Clock::time_point now = Clock::now();
+    pacer_.setSpeed(speed, now);
+    speed_ = speed;
+    real_time_factor_ = 0.0;
+    measured_at_ = now;
+    measured_time_ = simulation_->time();
   }
 }
 
@@ -240,7 +256,39 @@ void SimulationLoop::pause()
 
 void SimulationLoop::resume()
 {
-  call([this](Simulation&) { paused_ = false; });
+  call(
+      [this](Simulation&)
+      {
+        if (paused_)
+        {
+          pacer_.begin(Clock::now());
+          paused_ = false;
+        }
+      });
+}
+
+LoopTuning SimulationLoop::tuning()
+{
+  return call(
+      [this](const Simulation& simulation) {
+        return LoopTuning{ tuningOf(simulation.params()), speed_ };
+      });
+}
+
+std::vector<std::string> SimulationLoop::tune(const std::function<void(LoopTuning&)>& change)
+{
+  return call(
+      [&](Simulation& simulation)
+      {
+        LoopTuning wanted{ tuningOf(simulation.params()), speed_ };
+        change(wanted);
+        std::vector<std::string> found;
+        checkSpeed(found, wanted.speed);
+        refuseIf(found);
+        std::vector<std::string> notes = simulation.tune(wanted);
+        setSpeed(wanted.speed);
+        return notes;
+      });
 }
 
 void SimulationLoop::reset()
@@ -284,7 +332,7 @@ LoopState SimulationLoop::state() const
 {
   const bool awaits_clock = options_.pace == Pace::CLOCK && !paused_ && !following_;
   return { options_.pace, paused_,    real_time_factor_, awaits_clock,
-           clock_jumps_,  lost_time_, falls_behind_ };
+           clock_jumps_,  lost_time_, falls_behind_,     speed_ };
 }
 
 void SimulationLoop::measure()

@@ -39,6 +39,7 @@ cloth::SimulationLoop::Options loopOptions(const NodeParams& params, FrameFollow
   cloth::SimulationLoop::Options options;
   options.pace = params.pace;
   options.paused = params.paused;
+  options.speed = params.speed;
   options.patience = std::chrono::milliseconds(static_cast<int>(1000.0 * params.command_patience));
   options.clock = rosTime;
   options.before_step = [&follower](cloth::Simulation& simulation)
@@ -103,7 +104,7 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , pulls_(context(), pull_ends_)
     , predictions_(context())
     , states_(context(), params.states, [this] { tuning_.show(); })
-    , tuning_(context(), params.simulation)
+    , tuning_(context(), { cloth::tuningOf(params.simulation), params.speed })
     , models_(context(), params)
     , spinner_(REQUEST_THREADS, &queue_)
     , step_spinner_(STEP_THREADS, &step_queue_)

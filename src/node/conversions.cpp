@@ -236,6 +236,7 @@ SimulationStatus toMessage(const StatusSource& source, const Placement& placemen
   message.paused = source.loop.paused;
   message.fault = source.fault;
   message.time_step = source.time_step;
+  message.speed = source.loop.speed;
   message.real_time_factor = source.loop.real_time_factor;
   message.clock_jumps = source.loop.clock_jumps;
   const auto tears = [&summary](cloth::TearKind kind)

@@ -16,13 +16,15 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr std::chrono::seconds PERIOD(1);
 
-/// Below this, real time is not kept.
+/// Below this part of the speed that is wanted, it is not kept.
 constexpr double LATE = 0.9;
 
-bool isLate(const cloth::LoopState& loop)
+/// One step more or less within the second that was measured is nothing.
+bool isLate(const StatusSource& source)
 {
+  const cloth::LoopState& loop = source.loop;
   return loop.falls_behind || (loop.pace == cloth::Pace::WALL && loop.real_time_factor > 0.0 &&
-                               loop.real_time_factor < LATE);
+                               loop.real_time_factor + source.time_step < LATE * loop.speed);
 }
 
 void summarise(const StatusSource& source, DiagnosticStatusWrapper& entry)
@@ -39,11 +41,11 @@ void summarise(const StatusSource& source, DiagnosticStatusWrapper& entry)
   {
     entry.summary(DiagnosticStatus::WARN, "waits for a clock to follow");
   }
-  else if (isLate(source.loop))
+  else if (isLate(source))
   {
     entry.summary(DiagnosticStatus::WARN, source.loop.falls_behind
                                               ? "slower than the clock that it follows"
-                                              : "slower than real time");
+                                              : "slower than it should be");
   }
   else
   {
@@ -57,6 +59,7 @@ void describeSolver(const StatusSource& source, DiagnosticStatusWrapper& entry)
 {
   summarise(source, entry);
   entry.add("pace", name(source.loop.pace));
+  entry.add("speed", cloth::text(source.loop.speed));
   entry.add("real-time factor", cloth::text(source.loop.real_time_factor));
   entry.add("substeps a step", source.summary.substeps);
   entry.add("clock jumps", source.loop.clock_jumps);

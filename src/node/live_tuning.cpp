@@ -112,8 +112,9 @@ void match(BoundsMaxConfig& shown, cloth::Tuning& tuning, const Copy& copy)
 }
 
 template <class Copy>
-void match(SolverConfig& shown, cloth::Tuning& tuning, const Copy& copy)
+void match(SolverConfig& shown, cloth::LoopTuning& tuning, const Copy& copy)
 {
+  copy(shown.speed, tuning.speed);
   copy(shown.max_strain, tuning.max_strain);
   copy(shown.max_substeps, tuning.max_substeps);
 }
@@ -181,7 +182,7 @@ class LiveTuning::Group
 {
 public:
   virtual ~Group() = default;
-  virtual void show(cloth::Tuning& tuning) = 0;
+  virtual void show(cloth::LoopTuning& tuning) = 0;
 };
 
 template <class Config>
@@ -189,7 +190,7 @@ class LiveTuning::GroupOf : public LiveTuning::Group
 {
 public:
   /// @param name of the group; empty for none
-  GroupOf(LiveTuning& host, const std::string& name, cloth::Tuning tuning)
+  GroupOf(LiveTuning& host, const std::string& name, cloth::LoopTuning tuning)
       : context_(host.context_)
       , request_(name.empty() ? "set_parameters" : name + "/set_parameters")
       , in_force_(atStart(host.context_, name, tuning))
@@ -198,7 +199,7 @@ public:
     server_.setCallback([this](Config& wanted, std::uint32_t level) { onChange(wanted, level); });
   }
 
-  void show(cloth::Tuning& tuning) override
+  void show(cloth::LoopTuning& tuning) override
   {
     match(in_force_, tuning, ToShown{ context_.placement.origin.z() });
     server_.updateConfig(in_force_);
@@ -207,7 +208,8 @@ public:
 private:
   /// The server reads its first values from the parameter server, where a list hides the entries of
   /// a vector: they have to be there.
-  static Config atStart(const NodeContext& context, const std::string& name, cloth::Tuning& tuning)
+  static Config atStart(const NodeContext& context, const std::string& name,
+                        cloth::LoopTuning& tuning)
   {
     Config config = Config::__getDefault__();
     match(config, tuning, ToShown{ 0.0 });
@@ -237,13 +239,8 @@ private:
   void tune(Config& wanted)
   {
     const ToCore copy{ context_.placement.origin.z() };
-    const std::vector<std::string> notes = context_.loop.call(
-        [&](cloth::Simulation& simulation)
-        {
-          cloth::Tuning tuning = cloth::tuningOf(simulation.params());
-          match(wanted, tuning, copy);
-          return simulation.tune(tuning);
-        });
+    const std::vector<std::string> notes =
+        context_.loop.tune([&](cloth::LoopTuning& tuning) { match(wanted, tuning, copy); });
     for (const std::string& note : notes)
     {
       ROS_WARN_STREAM(note);
@@ -256,25 +253,24 @@ private:
   dynamic_reconfigure::Server<Config> server_;
 };
 
-LiveTuning::LiveTuning(const NodeContext& context, const cloth::SimulationParams& start)
+LiveTuning::LiveTuning(const NodeContext& context, const cloth::LoopTuning& start)
     : context_(context)
 {
-  const cloth::Tuning tuning = cloth::tuningOf(start);
-  open<MaterialConfig>("material", tuning);
-  open<EnvironmentConfig>("environment", tuning);
-  open<GravityConfig>("environment/gravity", tuning);
-  open<WindConfig>("environment/wind", tuning);
-  open<TearingConfig>("tearing", tuning);
-  open<ContactConfig>("contact", tuning);
-  open<BoundsMinConfig>("contact/bounds_min", tuning);
-  open<BoundsMaxConfig>("contact/bounds_max", tuning);
-  open<SolverConfig>("", tuning);
+  open<MaterialConfig>("material", start);
+  open<EnvironmentConfig>("environment", start);
+  open<GravityConfig>("environment/gravity", start);
+  open<WindConfig>("environment/wind", start);
+  open<TearingConfig>("tearing", start);
+  open<ContactConfig>("contact", start);
+  open<BoundsMinConfig>("contact/bounds_min", start);
+  open<BoundsMaxConfig>("contact/bounds_max", start);
+  open<SolverConfig>("", start);
 }
 
 LiveTuning::~LiveTuning() = default;
 
 template <class Config>
-void LiveTuning::open(const std::string& name, const cloth::Tuning& start)
+void LiveTuning::open(const std::string& name, const cloth::LoopTuning& start)
 {
   groups_.push_back(std::make_unique<GroupOf<Config>>(*this, name, start));
 }
@@ -284,8 +280,7 @@ void LiveTuning::show()
   const boost::recursive_mutex::scoped_lock lock(mutex_);
   try
   {
-    cloth::Tuning tuning = context_.loop.call([](const cloth::Simulation& simulation)
-                                              { return cloth::tuningOf(simulation.params()); });
+    cloth::LoopTuning tuning = context_.loop.tuning();
     for (const auto& group : groups_)
     {
       group->show(tuning);

@@ -128,6 +128,7 @@ std::vector<std::string> problems(const NodeParams& params)
 {
   std::vector<std::string> found;
   append(found, "", placeProblems(params.frame_id, params.cloth_pose.position));
+  cloth::checkSpeed(found, params.speed);
   check(found, "clock_rate [Hz]", params.clock_rate, Range::between(0.1, 100000.0));
   if (params.publish_clock && params.pace == cloth::Pace::CLOCK)
   {

@@ -23,6 +23,7 @@ void readNode(ParamReader& reader, NodeParams& params)
                                    { "step", cloth::Pace::STEP },
                                    { "clock", cloth::Pace::CLOCK } },
                                  params.pace);
+  reader.read("speed", params.speed);
   reader.read("paused", params.paused);
   reader.read("publish_clock", params.publish_clock);
   reader.read("clock_rate", params.clock_rate);

@@ -14,13 +14,14 @@
 #include "cloth_tearing/core/clock_follower.h"
 #include "cloth_tearing/core/command_queue.h"
 #include "cloth_tearing/core/simulation.h"
+#include "cloth_tearing/core/wall_pacer.h"
 
 namespace cloth
 {
 
 enum class Pace
 {
-  WALL,   ///< real time on the steady clock
+  WALL,   ///< real time on the steady clock, or so many times as fast
   FREE,   ///< as fast as possible
   STEP,   ///< only when asked to, by step()
   CLOCK,  ///< as an outside clock goes, see ClockFollower
@@ -30,11 +31,19 @@ struct LoopState
 {
   Pace pace = Pace::WALL;
   bool paused = false;
-  double real_time_factor = 0.0;  ///< simulated over elapsed time, over about the last second [-]
+  double real_time_factor = 0.0;  ///< simulated over elapsed time, over about the last second [-];
+                                  ///< 0 while it stands, or has been told another speed since
   bool awaits_clock = false;      ///< Pace::CLOCK, running, and the clock has shown nothing yet
   std::uint64_t clock_jumps = 0;  ///< of the clock that is followed; each was skipped
   double lost_time = 0.0;         ///< by which it fell behind that clock, without the jumps [s]
   bool falls_behind = false;      ///< it did so within about the last second
+  double speed = 1.0;             ///< wanted by Pace::WALL: simulated over real time [-]
+};
+
+/// What may change while it runs.
+struct LoopTuning : Tuning
+{
+  double speed = 1.0;  ///< see LoopState
 };
 
 /// Answer to step().
@@ -61,6 +70,7 @@ public:
   {
     Pace pace = Pace::WALL;
     bool paused = false;                         ///< start paused
+    double speed = 1.0;                          ///< of Pace::WALL [-], see checkSpeed
     std::chrono::milliseconds patience{ 1000 };  ///< how long a command may wait before it is Busy
 
     /// Called on the loop's thread before every step, to bring in what moves by itself elsewhere;
@@ -76,7 +86,7 @@ public:
     std::function<void(const std::string&)> on_clock_jump;
   };
 
-  /// @throws std::invalid_argument if Pace::CLOCK has no clock
+  /// @throws std::invalid_argument if Pace::CLOCK has no clock, or the speed is none
   SimulationLoop(std::unique_ptr<Simulation> simulation, const Options& options, Listener listener);
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
@@ -104,6 +114,14 @@ public:
 
   void pause();
   void resume();
+
+  LoopTuning tuning();
+
+  /// Changes what `change(LoopTuning&)` changes of what is in force, between two steps: all of it
+  /// or nothing. Another speed makes no jump: the simulation goes on from where it is.
+  /// @return notes as Simulation::tune
+  /// @throws Refusal as Simulation::tune and checkSpeed, and what `change` throws
+  std::vector<std::string> tune(const std::function<void(LoopTuning&)>& change);
 
   /// Resets the simulation; a step() under way is cut short.
   void reset();
@@ -133,7 +151,8 @@ private:
 
   void run();
   void oneStep();
-  void keepPace(Clock::time_point& due);
+  void keepPace();
+  void setSpeed(double speed);
   void followClock();
   void followAnew();
   void tellJump(const std::string& jump);
@@ -150,6 +169,8 @@ private:
   std::atomic<bool> ending_{ false };
   std::atomic<bool> paused_{ false };
   std::atomic<double> real_time_factor_{ 0.0 };
+  std::atomic<double> speed_;
+  WallPacer pacer_;         ///< of the loop's thread
   ClockFollower follower_;  ///< of the loop's thread
   std::atomic<bool> following_{ false };
   std::atomic<std::uint64_t> clock_jumps_{ 0 };

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "cloth_tearing/core/simulation.h"
+#include "cloth_tearing/core/simulation_loop.h"
 #include "cloth_tearing/node/request_server.h"
 
 namespace cloth_tearing
@@ -23,7 +23,7 @@ class LiveTuning
 {
 public:
   /// @param start what the cloth was built with, in frame_id
-  LiveTuning(const NodeContext& context, const cloth::SimulationParams& start);
+  LiveTuning(const NodeContext& context, const cloth::LoopTuning& start);
   ~LiveTuning();
 
   /// Shows the values in force, when something else has changed them. Warns if the simulation is
@@ -36,7 +36,7 @@ private:
   class GroupOf;
 
   template <class Config>
-  void open(const std::string& name, const cloth::Tuning& start);
+  void open(const std::string& name, const cloth::LoopTuning& start);
 
   NodeContext context_;
   boost::recursive_mutex mutex_;  ///< of all servers: what they show is what is in force

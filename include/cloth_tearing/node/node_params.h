@@ -55,6 +55,7 @@ struct NodeParams
                              cloth::Quatd(std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0) };
 
   cloth::Pace pace = cloth::Pace::WALL;
+  double speed = 1.0;          ///< of Pace::WALL: simulated over real time [-], 0.001 to 1000
   bool paused = false;         ///< start paused
   bool publish_clock = false;  ///< /clock shows the simulation's time; not with Pace::CLOCK
   double clock_rate = 100.0;   ///< so often, in simulated time [Hz], 0.1 to 100000
