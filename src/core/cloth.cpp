@@ -178,6 +178,25 @@ double Cloth::strain(SpringId s) const
   return (b - a).norm() / rest.length[s.index] - 1.0;
 }
 
+Vec3d Cloth::center() const
+{
+  Vec3d moment = Vec3d::Zero();
+  double mass = 0.0;
+  for (int i = 0; i < state.size(); ++i)
+  {
+    if (!damage.at_rest[i])
+    {
+      moment += rest.mass[i] * state.position[i].cast<double>();
+      mass += rest.mass[i];
+    }
+  }
+  if (!(mass > 0.0))
+  {
+    throw Refusal("all of the cloth is at rest: it has left the bounds");
+  }
+  return moment / mass;
+}
+
 Vec3 Cloth::direction(SpringId s, ParticleId from) const
 {
   return state.position[mesh.spring(s).other(from).index] - state.position[from.index];

@@ -496,6 +496,29 @@ void Simulation::setSpheres(const std::vector<Sphere>& spheres)
   spheres_.set(spheres, params_.contact, params_.solver.time_step);
 }
 
+void Simulation::holdSphere(SphereSource source, std::uint64_t id, const Vec3d& center)
+{
+  spheres_.hold(source, id, center, params_.contact, params_.solver.time_step);
+}
+
+void Simulation::letGoOfSphere(SphereSource source, std::uint64_t id)
+{
+  spheres_.letGo(source, id, params_.contact);
+}
+
+std::uint64_t Simulation::throwAtCloth(SphereSource source, std::uint64_t id, double speed)
+{
+  std::vector<std::string> found;
+  check(found, "speed [m/s]", speed, Range::aboveUpTo(0.0, MAX_COORDINATE));
+  refuseIf(found);
+  const Vec3d way = cloth_.center() - spheres_.find(source, id).center;
+  if (way.isZero(0.0))
+  {
+    throw Refusal("the sphere is in the centre of the cloth: there is nothing to aim at");
+  }
+  return spheres_.throwAgain(source, id, speed * way.normalized());
+}
+
 void Simulation::place(const std::vector<Vec3>& positions)
 {
   std::vector<std::string> found;

@@ -208,16 +208,15 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
                const Contact& contact, Real push, const ContactParams& params, Real dt)
 {
   const Real lightest = lightestCorner(state, triangle);
-  if (!(lightest > 0) && !(sphere.mass > 0.0))
+  if (!(lightest > 0) && !sphere.yields())
   {
     return 0;  // neither of them gives way
   }
   const auto& p = triangle.particles;
-  const Real sphere_inverse_mass =
-      sphere.mass > 0.0 ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
-  // A kinematic sphere has the velocity of its way, whoever moves it.
+  const Real sphere_inverse_mass = sphere.yields() ? static_cast<Real>(1.0 / sphere.mass) : Real(0);
+  // One that cannot be pushed has the velocity of its way, whoever moves it.
   const Vec3 way =
-      (sphere.mass > 0.0 ? sphere.velocity : Vec3d((sphere.center - sphere.previous) / double(dt)))
+      (sphere.yields() ? sphere.velocity : Vec3d((sphere.center - sphere.previous) / double(dt)))
           .cast<Real>();
   // Inverse mass that feels a push at the contact. A held corner counts as if it were free, and its
   // share is lost: left to a free one near by, it would throw that away.
@@ -259,7 +258,7 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
       sphere.force -= gained.cast<double>() / (dt * state.inverse_mass[p[k].index]);
     }
   }
-  if (sphere.mass > 0.0)
+  if (sphere.yields())
   {
     sphere.center -= (sphere_inverse_mass / yielding * shift).cast<double>();
     sphere.velocity -= (sphere_inverse_mass / yielding * change).cast<double>();
@@ -417,6 +416,11 @@ void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
   {
     sphere.previous = sphere.center;
     glide(sphere, dt);
+    sphere.age += dt;
+    if (sphere.caught)
+    {
+      continue;
+    }
     const bool moves = sphere.source == SphereSource::THROWN || sphere.time_left > 0.0;
     if (moves && sphere.mass > 0.0)
     {
@@ -435,7 +439,6 @@ void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
       rollOnFloor(sphere, params);
     }
     sphere.time_left -= dt;
-    sphere.age += dt;
   }
   const auto gone = [&](const Sphere& s)
   {

@@ -32,6 +32,11 @@ void send(Sphere& sphere, const Vec3d& center, double time, const ContactParams&
   }
 }
 
+std::string nameOf(SphereSource source, std::uint64_t id)
+{
+  return (source == SphereSource::THROWN ? "thrown sphere " : "sphere ") + std::to_string(id);
+}
+
 }  // namespace
 
 void SphereSet::set(const std::vector<Sphere>& spheres, const ContactParams& params,
@@ -77,7 +82,7 @@ Sphere SphereSet::streamed(const Sphere& set, const ContactParams& params, doubl
   sphere.age = 0.0;
   sphere.fresh = true;
   sphere.out = Vec3d::Zero();
-  const auto known = find(set.id);
+  const auto known = seek(SphereSource::STREAMED, set.id);
   if (known != spheres_.end())
   {
     sphere.center = known->center;
@@ -88,26 +93,35 @@ Sphere SphereSet::streamed(const Sphere& set, const ContactParams& params, doubl
   return sphere;
 }
 
-std::vector<Sphere>::const_iterator SphereSet::find(std::uint64_t id) const
+std::vector<Sphere>::const_iterator SphereSet::seek(SphereSource source, std::uint64_t id) const
 {
   return std::find_if(spheres_.begin(), spheres_.end(),
-                      [id](const Sphere& s)
-                      { return s.source == SphereSource::STREAMED && s.id == id; });
+                      [source, id](const Sphere& s) { return s.source == source && s.id == id; });
+}
+
+const Sphere& SphereSet::find(SphereSource source, std::uint64_t id) const
+{
+  const auto found = seek(source, id);
+  if (found == spheres_.end())
+  {
+    throw Refusal("there is no " + nameOf(source, id));
+  }
+  return *found;
+}
+
+Sphere& SphereSet::known(SphereSource source, std::uint64_t id)
+{
+  return const_cast<Sphere&>(find(source, id));
 }
 
 void SphereSet::moveTo(std::uint64_t id, const Vec3d& center, double time,
                        const ContactParams& params, double time_step)
 {
-  const auto known = find(id);
-  if (known == spheres_.end())
-  {
-    throw Refusal("there is no sphere " + std::to_string(id));
-  }
+  Sphere& sphere = known(SphereSource::STREAMED, id);
   std::vector<std::string> found;
   check(found, "sphere " + std::to_string(id) + ": center [m]", center, MAX_COORDINATE);
   check(found, "time [s]", time, Range::between(0.0, 1e6));
   refuseIf(found);
-  Sphere& sphere = spheres_[static_cast<std::size_t>(known - spheres_.begin())];
   sphere.age = 0.0;
   sphere.time_left = params.sphere_timeout;
   send(sphere, center, std::max(time, time_step), params);
@@ -134,6 +148,53 @@ std::uint64_t SphereSet::throwOne(const ThrowRequest& request)
   refuseIf(found);
   spheres_.push_back(sphere);
   return next_thrown_++;
+}
+
+void SphereSet::hold(SphereSource source, std::uint64_t id, const Vec3d& center,
+                     const ContactParams& params, double time_step)
+{
+  Sphere& sphere = known(source, id);
+  std::vector<std::string> found;
+  check(found, nameOf(source, id) + ": center [m]", center, MAX_COORDINATE);
+  if (!sphere.frame.empty())
+  {
+    found.push_back(nameOf(source, id) + " follows the frame \"" + sphere.frame +
+                    "\": nothing else can move it");
+  }
+  refuseIf(found);
+  send(sphere, center, std::max(sphere.age, time_step), params);
+  sphere.age = 0.0;
+  sphere.caught = true;
+}
+
+void SphereSet::letGo(SphereSource source, std::uint64_t id, const ContactParams& params)
+{
+  Sphere& sphere = known(source, id);
+  if (sphere.caught)
+  {
+    sphere.caught = false;
+    sphere.time_left = source == SphereSource::STREAMED ? params.sphere_timeout : sphere.time_left;
+  }
+}
+
+std::uint64_t SphereSet::throwAgain(SphereSource source, std::uint64_t id, const Vec3d& velocity)
+{
+  const Sphere& sphere = find(source, id);
+  ThrowRequest request;
+  request.center = sphere.center;
+  request.velocity = velocity;
+  request.radius = sphere.radius;
+  request.mass = sphere.mass;
+  SphereSet after = *this;  // to be refused as a whole
+  after.remove(source, id);
+  const std::uint64_t thrown = after.throwOne(request);
+  *this = std::move(after);
+  return thrown;
+}
+
+void SphereSet::remove(SphereSource source, std::uint64_t id)
+{
+  spheres_.erase(spheres_.begin() + (&find(source, id) - spheres_.data()));
 }
 
 }  // namespace cloth

@@ -145,6 +145,7 @@ void addSphere(Hash& hash, const Sphere& sphere)
   hash.add(sphere.radius);
   hash.add(sphere.mass);
   hash.add(sphere.time_left);
+  hash.add(sphere.caught ? 1 : 0);
   hash.add(sphere.fresh ? 1 : 0);
   hash.add(sphere.out);
 }

@@ -66,6 +66,9 @@ struct Cloth
   /// Length over rest length - 1 of a structural spring [-].
   double strain(SpringId s) const;
 
+  /// Of mass, without the pieces at rest [m]. @throws Refusal if there is nothing else
+  Vec3d center() const;
+
   /// Vector from one end to the other [m], from `from`.
   Vec3 direction(SpringId s, ParticleId from) const;
 };

@@ -35,8 +35,12 @@ struct Sphere
   double age = 0.0;   ///< since it was set [s]
   Vec3d force = Vec3d::Zero();  ///< that the cloth exerted on it in the last step [N]
   double time_left = 0.0;  ///< [s]: STREAMED moves on so long and then stands, THROWN is gone then
+  bool caught = false;     ///< stands still, or goes where it is sent, until it is let go
   std::string frame;       ///< that it follows, for whoever moves it; empty: none
   Vec3d center_in_frame = Vec3d::Zero();  ///< [m], in `frame`
+
+  /// Whether what it meets can push it.
+  bool yields() const { return mass > 0.0 && !caught; }
 };
 
 struct ContactParams

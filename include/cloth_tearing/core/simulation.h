@@ -200,6 +200,21 @@ public:
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
   std::uint64_t throwSphere(const ThrowRequest& request) { return spheres_.throwOne(request); }
 
+  /// Catches a sphere and sends it to `center` [m]. It stands still there until it is let go.
+  /// @throws Refusal if there is no such sphere, it follows a frame, or center is not usable
+  void holdSphere(SphereSource source, std::uint64_t id, const Vec3d& center);
+
+  /// It goes on as before it was caught. @throws Refusal if there is no such sphere
+  void letGoOfSphere(SphereSource source, std::uint64_t id);
+
+  /// Throws a sphere from where it is at the centre of mass of the cloth, at `speed` [m/s].
+  /// @return its new id, among the thrown ones
+  /// @throws Refusal if there is no such sphere, speed is not usable, or there is nothing to aim at
+  std::uint64_t throwAtCloth(SphereSource source, std::uint64_t id, double speed);
+
+  /// @throws Refusal if there is no such sphere
+  void removeSphere(SphereSource source, std::uint64_t id) { spheres_.remove(source, id); }
+
   /// Changes parameters from the next step on, of the torn cloth and of the one that reset() goes
   /// back to. Before the first step, it is then as if it had been built with them.
   /// @return what users should know, as startNotes()

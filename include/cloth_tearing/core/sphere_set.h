@@ -38,6 +38,27 @@ public:
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
   std::uint64_t throwOne(const ThrowRequest& request);
 
+  /// Catches a sphere and sends it to `center` [m], as a set does. It stands still there, whatever
+  /// its velocity, its mass and the cloth, until it is let go; a thrown one does not grow older.
+  /// @throws Refusal if there is no such sphere, it follows a frame, or center is not usable
+  void hold(SphereSource source, std::uint64_t id, const Vec3d& center, const ContactParams& params,
+            double time_step);
+
+  /// It goes on with the velocity that it had; a streamed one as if just set. One that is not
+  /// caught stays as it is. @throws Refusal if there is no such sphere
+  void letGo(SphereSource source, std::uint64_t id, const ContactParams& params);
+
+  /// Throws it from where it is, whatever it did before.
+  /// @return its new id, among the thrown ones
+  /// @throws Refusal if there is no such sphere or `velocity` [m/s] is not usable
+  std::uint64_t throwAgain(SphereSource source, std::uint64_t id, const Vec3d& velocity);
+
+  /// @throws Refusal if there is no such sphere
+  void remove(SphereSource source, std::uint64_t id);
+
+  /// @throws Refusal if there is no such sphere
+  const Sphere& find(SphereSource source, std::uint64_t id) const;
+
   std::vector<Sphere>& all() { return spheres_; }
   const std::vector<Sphere>& all() const { return spheres_; }
 
@@ -47,7 +68,8 @@ private:
   template <class Archive>
   friend void transfer(Archive& archive, SphereSet& set);
 
-  std::vector<Sphere>::const_iterator find(std::uint64_t id) const;
+  std::vector<Sphere>::const_iterator seek(SphereSource source, std::uint64_t id) const;
+  Sphere& known(SphereSource source, std::uint64_t id);
   Sphere streamed(const Sphere& set, const ContactParams& params, double time_step) const;
 
   std::vector<Sphere> spheres_;

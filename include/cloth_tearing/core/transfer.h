@@ -361,7 +361,7 @@ template <class Archive>
 void transfer(Archive& archive, Sphere& sphere)
 {
   auto& [source, id, center, previous, velocity, jump, jump_time, radius, mass, fresh, out, age,
-         force, time_left, frame, center_in_frame] = sphere;
+         force, time_left, caught, frame, center_in_frame] = sphere;
   archive.choice("source", source, SphereSource::THROWN);
   archive("id", id);
   archive("center", center);
@@ -376,6 +376,7 @@ void transfer(Archive& archive, Sphere& sphere)
   archive("age", age);
   archive("force", force);
   archive("time_left", time_left);
+  archive("caught", caught);
   archive("frame", frame);
   archive("center_in_frame", center_in_frame);
 }
