@@ -2,6 +2,8 @@
 #include "cloth_tearing/rviz/cloth_display.h"
 
 #include <ros/console.h>
+#include <ros/exceptions.h>
+#include <ros/names.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
@@ -11,6 +13,7 @@
 #include <rviz/properties/string_property.h>
 
 #include <algorithm>
+#include <limits>
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
@@ -37,10 +40,12 @@ bool drawable(const Ogre::Vector3& vector)
   return vector.squaredLength() < MOST_LENGTH * MOST_LENGTH;
 }
 
-/// The topic of the same node.
-std::string graspTopic(const std::string& surface_topic)
+cloth::Pose toPose(const Ogre::Vector3& position, const Ogre::Quaternion& rotation)
 {
-  return surface_topic.substr(0, surface_topic.rfind('/') + 1) + "grasp_states";
+  cloth::Pose pose;
+  pose.position = cloth::Vec3d(position.x, position.y, position.z);
+  pose.rotation = cloth::Quatd(rotation.w, rotation.x, rotation.y, rotation.z).normalized();
+  return pose;
 }
 
 }  // namespace
@@ -217,10 +222,24 @@ void ClothDisplay::subscribe()
 {
   MFDClass::subscribe();
   source_ = Source::SUBSCRIBED;
-  if (isEnabled() && !topic_property_->getTopicStd().empty())
+  const std::string node = clothNode();
+  if (isEnabled() && !node.empty())
   {
-    grasp_subscriber_ = update_nh_.subscribe(graspTopic(topic_property_->getTopicStd()), 2,
+    grasp_subscriber_ = update_nh_.subscribe(ros::names::append(node, "grasp_states"), 2,
                                              &ClothDisplay::takeGrasps, this);
+  }
+}
+
+std::string ClothDisplay::clothNode() const
+{
+  const std::string topic = topic_property_->getTopicStd();
+  try
+  {
+    return topic.empty() ? topic : ros::names::parentNamespace(update_nh_.resolveName(topic));
+  }
+  catch (const ros::InvalidNameException&)
+  {
+    return {};  // the base class tells so
   }
 }
 
@@ -291,6 +310,7 @@ void ClothDisplay::place(const ClothSurface& message)
   if (placed_)
   {
     visual_->setPose(position, orientation);
+    pose_ = toPose(position, orientation);
     setStatus(StatusProperty::Ok, "Transform", "OK");
   }
   else
@@ -306,6 +326,24 @@ void ClothDisplay::takeGrasps(const GraspStates::ConstPtr& message)
 {
   grasps_ = message;
   drawn_ = false;
+}
+
+// -- picking -------------------------------------------------------------------------------------
+
+std::optional<double> ClothDisplay::pick(const Ray& ray) const
+{
+  if (!shown())
+  {
+    return std::nullopt;
+  }
+  const Ray local{ pose_.applyInverse(ray.origin), pose_.rotation.conjugate() * ray.direction };
+  return firstHit(local, mesh_.positions(), mesh_.triangles());
+}
+
+double ClothDisplay::distanceFrom(const cloth::Vec3d& point) const
+{
+  return shown() ? distanceTo(pose_.applyInverse(point), mesh_.positions(), mesh_.triangles())
+                 : std::numeric_limits<double>::infinity();
 }
 
 // -- drawing -------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <rviz/message_filter_display.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cloth_tearing/ClothSurface.h"
@@ -14,6 +15,7 @@
 #include "cloth_tearing/rviz/force_arrows.h"
 #include "cloth_tearing/rviz/strain_legend.h"
 #include "cloth_tearing/rviz/surface_mesh.h"
+#include "cloth_tearing/rviz/surface_picking.h"
 #endif
 
 namespace rviz
@@ -40,6 +42,16 @@ public:
 
   void reset() override;
   void update(float wall_dt, float ros_dt) override;
+
+  /// The namespace of what sends, after remappings: that of its services. Empty without a topic.
+  std::string clothNode() const;
+
+  /// How far from its origin a ray of the fixed frame first meets the cloth as it is shown [m];
+  /// none if it misses it or there is none.
+  std::optional<double> pick(const Ray& ray) const;
+
+  /// From a point of the fixed frame to the cloth as it is shown [m]; infinite if there is none.
+  double distanceFrom(const cloth::Vec3d& point) const;
 
 protected:
   void onInitialize() override;
@@ -81,6 +93,7 @@ private:
 
   void processMessage(const ClothSurface::ConstPtr& message) override;
   void place(const ClothSurface& message);
+  bool shown() const { return isEnabled() && surface_ && placed_; }
   void refuse(const std::string& reason);
   void watchSource();
   void takeGrasps(const GraspStates::ConstPtr& message);
@@ -109,6 +122,7 @@ private:
   ClothSurface::ConstPtr surface_;  ///< that mesh_ has taken; none = nothing is shown
   bool new_triangles_ = true;       ///< since the last drawing
   bool placed_ = false;             ///< its frame is known
+  cloth::Pose pose_;                ///< of the message's origin, in the fixed frame
   bool drawn_ = true;
   std::string image_problem_;  ///< of the texture's image; empty = none
   std::string problem_;        ///< of the last message; empty = none

@@ -40,6 +40,9 @@ public:
   /// Three vertices of each triangle, counter-clockwise seen from the front.
   const std::vector<std::uint32_t>& indices() const { return indices_; }
 
+  /// Three particles of each triangle, likewise.
+  const std::vector<std::uint32_t>& triangles() const { return triangles_; }
+
   /// Of each particle, in metres from the message's origin.
   const std::vector<cloth::Vec3>& positions() const { return positions_; }
 

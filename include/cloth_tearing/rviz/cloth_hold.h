@@ -1,0 +1,70 @@
+// Holds one node's cloth on behalf of a pointer.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+
+#include <optional>
+#include <string>
+
+#include "cloth_tearing/core/types.h"
+#include "cloth_tearing/rviz/hold_state.h"
+#include "cloth_tearing/rviz/service_caller.h"
+
+namespace cloth_tearing
+{
+
+/// Takes hold, leads, lets go by the node's services and topics, one grasp at a time, without ever
+/// waiting for the node. Belongs to one thread, which also serves the queue of its node handle.
+class ClothHold
+{
+public:
+  ClothHold(const ros::NodeHandle& node, const std::string& cloth_node);
+
+  /// Lets go.
+  ~ClothHold();
+
+  ClothHold(const ClothHold&) = delete;
+  ClothHold& operator=(const ClothHold&) = delete;
+
+  /// Asks for a grasp of what lies around a point [m]. Does nothing as long as the last one was not
+  /// answered.
+  void take(const std::string& frame, const cloth::Vec3d& point, double radius);
+
+  /// The grasp is to be at a point of that frame [m].
+  void lead(const cloth::Vec3d& target) { target_ = target; }
+
+  /// Lets go, if need be as soon as the node has answered.
+  void letGo(bool pin);
+
+  /// To be called again and again: sends where to, and notices a node that is gone.
+  void update();
+
+  /// Does not listen to the node any more, for now.
+  void rest();
+
+  /// Whether something is held or asked for that was not let go.
+  bool busy() const { return state_.phase() != HoldState::Phase::IDLE && !state_.letsGo(); }
+
+  /// What to tell, without mark-up; empty = nothing.
+  std::string words() const;
+
+private:
+  void listen();
+  void release(const Release::Request& request);
+  void sendTarget();
+
+  ros::NodeHandle node_;  ///< with the cloth's node for namespace
+  HoldState state_;
+  std::string frame_;
+  std::optional<cloth::Vec3d> target_;  ///< that was not sent yet
+  ros::Publisher targets_;
+  ros::Subscriber states_;
+  ros::Subscriber events_;
+  ros::Subscriber status_;
+  bool found_ = false;  ///< the node publishes
+  ServiceCaller caller_;
+};
+
+}  // namespace cloth_tearing
