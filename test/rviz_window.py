@@ -283,10 +283,10 @@ def report_skipped(test_case, reason):
     print(f"{test_case.__name__}: SKIPPED, {reason}")
 
 
-def run(program, test_case):
-    """Runs the tests of a program that rostest started."""
+def run(program, test_case, lacking=()):
+    """Runs the tests of a program that rostest started, unless they lack something."""
     test_case.program = program
-    lacking = missing()
+    lacking = [*missing(), *lacking]
     if lacking:
         report_skipped(test_case, "tests in rviz lack " + ", ".join(lacking))
         return
