@@ -13,7 +13,7 @@ constexpr std::chrono::seconds LAST_CALLS{ 1 };  // for what is to be said befor
 
 }  // namespace
 
-ServiceCaller::ServiceCaller() : thread_([this] { run(); })
+ServiceCaller::ServiceCaller() : thread_([this] { work(); })
 {
 }
 
@@ -23,14 +23,27 @@ ServiceCaller::~ServiceCaller()
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait_for(lock, LAST_CALLS, [this] { return waiting_.empty() && !busy_; });
     ending_ = true;
-    waiting_.clear();
-    if (calling_)
-    {
-      under_way_.shutdown();
-    }
+    cutAll();
     changed_.notify_all();
   }
   thread_.join();
+}
+
+void ServiceCaller::cut()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  cutAll();
+}
+
+/// With mutex_ locked.
+void ServiceCaller::cutAll()
+{
+  ++cuts_;
+  waiting_.clear();
+  if (calling_)
+  {
+    under_way_.shutdown();
+  }
 }
 
 double ServiceCaller::waiting() const
@@ -39,14 +52,14 @@ double ServiceCaller::waiting() const
   return busy_ ? std::chrono::duration<double>(Clock::now() - since_).count() : 0.0;
 }
 
-void ServiceCaller::enqueue(Work work)
+void ServiceCaller::enqueue(Task task)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  waiting_.push_back(std::move(work));
+  waiting_.push_back(std::move(task));
   changed_.notify_all();
 }
 
-void ServiceCaller::run()
+void ServiceCaller::work()
 {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true)
@@ -56,12 +69,14 @@ void ServiceCaller::run()
     {
       return;
     }
-    const Work work = std::move(waiting_.front());
+    Task task = std::move(waiting_.front());
+    const Turn turn = cuts_;
     waiting_.pop_front();
     busy_ = true;
     since_ = Clock::now();
     lock.unlock();
-    work();
+    task(turn);
+    task = nullptr;  // what it holds may take long to let go
     lock.lock();
     busy_ = false;
     changed_.notify_all();
@@ -69,11 +84,11 @@ void ServiceCaller::run()
 }
 
 /// @return false: it is too late to call
-bool ServiceCaller::begin(const ros::ServiceClient& client)
+bool ServiceCaller::begin(Turn turn, const ros::ServiceClient& client)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   under_way_ = client;
-  calling_ = !ending_;
+  calling_ = turn == cuts_;
   return calling_;
 }
 
@@ -84,9 +99,23 @@ void ServiceCaller::end()
   under_way_ = ros::ServiceClient();
 }
 
-void ServiceCaller::deliver(Work tell)
+void ServiceCaller::deliver(Turn turn, std::function<void()> tell)
 {
-  QMetaObject::invokeMethod(this, std::move(tell), Qt::QueuedConnection);
+  const auto unless_cut = [this, turn, tell = std::move(tell)]
+  {
+    if (isOf(turn))
+    {
+      tell();
+    }
+  };
+  QMetaObject::invokeMethod(this, unless_cut, Qt::QueuedConnection);
+}
+
+/// Whether there was no cut since.
+bool ServiceCaller::isOf(Turn turn) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return turn == cuts_;
 }
 
 }  // namespace cloth_tearing

@@ -8,6 +8,7 @@
 #include <QObject>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -21,7 +22,7 @@ namespace cloth_tearing
 {
 
 /// Makes calls one after the other on a thread of its own and hands their answers to the thread
-/// that it was made in, between the events of that thread.
+/// that it was made in, between the events of that thread. All members are for that thread.
 class ServiceCaller : public QObject
 {
 public:
@@ -54,23 +55,36 @@ public:
             Callback<Service> callback)
   {
     enqueue(
-        [this, name, request, callback]
+        [this, name, request, callback](Turn turn)
         {
           Answer<typename Service::Response> answer;
-          answer.problem = transact<Service>(name, request, answer.response);
-          deliver([callback, answer] { callback(answer); });
+          answer.problem = transact<Service>(turn, name, request, answer.response);
+          deliver(turn, [callback, answer] { callback(answer); });
         });
   }
+
+  /// Does `work()` when its turn has come, and then `callback` with what it returned: for what else
+  /// would make a window wait. It cannot be cut short.
+  template <class Work, class Callback>
+  void run(Work work, Callback callback)
+  {
+    enqueue([this, work, callback](Turn turn)
+            { deliver(turn, [callback, result = work()] { callback(result); }); });
+  }
+
+  /// Gives up what waits and cuts short the call that is under way; nobody is told any more.
+  void cut();
 
   /// For how long the call under way has been waiting for its answer [s]; 0 = none is under way.
   double waiting() const;
 
 private:
   using Clock = std::chrono::steady_clock;
-  using Work = std::function<void()>;
+  using Turn = std::uint64_t;  ///< how often there had been a cut when it came
+  using Task = std::function<void(Turn)>;
 
   template <class Service>
-  std::string transact(const std::string& name, const typename Service::Request& request,
+  std::string transact(Turn turn, const std::string& name, const typename Service::Request& request,
                        typename Service::Response& response)
   {
     ros::NodeHandle node;
@@ -80,7 +94,7 @@ private:
     {
       return "there is no service " + node.resolveName(name) + ": its node is not running";
     }
-    if (!begin(client))
+    if (!begin(turn, client))
     {
       return "ended";
     }
@@ -103,15 +117,18 @@ private:
     return {};
   }
 
-  void enqueue(Work work);
-  void run();
-  bool begin(const ros::ServiceClient& client);
+  void enqueue(Task task);
+  void work();
+  bool begin(Turn turn, const ros::ServiceClient& client);
   void end();
-  void deliver(Work tell);
+  void deliver(Turn turn, std::function<void()> tell);
+  void cutAll();
+  bool isOf(Turn turn) const;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Work> waiting_;  ///< guarded by mutex_, as is what follows
+  std::deque<Task> waiting_;  ///< guarded by mutex_, as is what follows
+  Turn cuts_ = 0;
   ros::ServiceClient under_way_;
   bool calling_ = false;
   bool busy_ = false;  ///< with one that was taken off the queue
