@@ -187,9 +187,9 @@ class RvizTest(unittest.TestCase):
     """One rviz for all tests of a class, in turn: starting it takes the longest."""
 
     @classmethod
-    def open(cls, view, environment=None):
+    def open(cls, view, environment=None, style=""):
         """Opens rviz on a view: the path of a file, or what is to be written into one. The
-        environment is its own, or else that of the test."""
+        environment is its own, or else that of the test; the style is one of Qt's style sheets."""
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         home = pathlib.Path(folder.name)
@@ -199,8 +199,10 @@ class RvizTest(unittest.TestCase):
             view = path
         cls.screen = Screen(home)
         cls.addClassCleanup(cls.screen.close)
+        style_sheet = home / "style.qss"
+        style_sheet.write_text(style)
         cls.rviz = subprocess.Popen(
-            ["rviz", "-d", str(view), "__name:=rviz"],
+            ["rviz", "-stylesheet", str(style_sheet), "-d", str(view), "__name:=rviz"],
             env=dict(environment or os.environ, DISPLAY=cls.screen.display, LIBGL_ALWAYS_SOFTWARE="1",
                      QT_QPA_PLATFORM="xcb", HOME=folder.name, XDG_RUNTIME_DIR=folder.name))
         cls.addClassCleanup(cls._close)
