@@ -91,6 +91,12 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_EQ(shipped.markers.plain_color, compiled.markers.plain_color);
   EXPECT_EQ(shipped.markers.edge_width, compiled.markers.edge_width);
   EXPECT_EQ(shipped.markers.point_size, compiled.markers.point_size);
+
+  EXPECT_EQ(shipped.handles.enabled, compiled.handles.enabled);
+  EXPECT_EQ(shipped.handles.rate, compiled.handles.rate);
+  EXPECT_EQ(shipped.handles.radius, compiled.handles.radius);
+  EXPECT_EQ(shipped.handles.throw_speed, compiled.handles.throw_speed);
+  EXPECT_EQ(shipped.handles.ball_radius, compiled.handles.ball_radius);
 }
 
 TEST(ClothYaml, SaysTheDefaultsOfTheModel)

@@ -31,7 +31,8 @@ class Cloth:
         parameters.write_text((SOURCE / "config/cloth.yaml").read_text() +
                               f"export_folder: {folder}\nstate_folder: {folder}\n")
         self.process = subprocess.Popen(["roslaunch", "cloth_tearing", "cloth.launch", "pace:=step",
-                                         "publish_clock:=true", f"config:={parameters}"])
+                                         "publish_clock:=true", "handles:=true",
+                                         f"config:={parameters}"])
 
     def stop(self):
         self.process.send_signal(signal.SIGINT)

@@ -305,6 +305,10 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "contact", "bounds_min", list({ 0, 60, 0 }),
       "contact/bounds_min [m].y is 60, must be less than bounds_max.y = 50" },
     { "markers", "checks", 0, "markers/checks is 0" },
+    { "handles", "rate", 0.0, "handles/rate [Hz] is 0" },
+    { "handles", "radius", 0.0, "handles/radius [m] is 0" },
+    { "handles", "throw_speed", 0.0, "handles/throw_speed [m/s] is 0" },
+    { "handles", "ball_radius", 200.0, "handles/ball_radius [m] is 200" },
     { "markers", "strain_range", list({ 1, 0 }), "must ascend" },
     { "markers", "plain_color", list({ 0, 2, 0 }), "markers/plain_color[1] is 2" },
   };

@@ -111,6 +111,10 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
 {
   openRequests();
   publisher_.start(loop_);
+  if (params.handles.enabled)
+  {
+    handles_ = std::make_unique<HandleServer>(context(), params.handles, grasps_, spheres_);
+  }
   spinner_.start();
   step_spinner_.start();
 }
@@ -119,6 +123,7 @@ ClothNode::~ClothNode()
 {
   frames_.stopWaiting();
   loop_.stop();  // whoever waits for it is answered
+  handles_.reset();
   pulls_.stop();
   predictions_.stop();
   spinner_.stop();

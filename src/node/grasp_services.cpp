@@ -15,30 +15,18 @@ GraspServices::GraspServices(const NodeContext& context) : context_(context)
 {
   RequestServer& requests = context_.requests;
   ros::NodeHandle& node = context_.node;
-  requests.serve<Grasp>(node, "grasp", [this](auto& q, auto& a) { onGrasp(q, a); });
+  requests.serve<Grasp>(node, "grasp", [this](auto& q, auto& a) { grasp(q, a); });
   requests.serve<Drag>(node, "drag", [this](auto& q, auto&) { onDrag(q); });
-  requests.serve<Release>(node, "release", [this](auto& q, auto& a) { onRelease(q, a); });
-  requests.serve<Pin>(node, "pin",
-                      [this](auto& q, auto& a)
-                      {
-                        onPins(q, a,
-                               [](auto& simulation, const cloth::PinRequest& pins)
-                               { return simulation.pin(pins); });
-                      });
-  requests.serve<Pin>(node, "unpin",
-                      [this](auto& q, auto& a)
-                      {
-                        onPins(q, a,
-                               [](auto& simulation, const cloth::PinRequest& pins)
-                               { return simulation.unpin(pins); });
-                      });
+  requests.serve<Release>(node, "release", [this](auto& q, auto& a) { release(q, a); });
+  requests.serve<Pin>(node, "pin", [this](auto& q, auto& a) { pin(q, a); });
+  requests.serve<Pin>(node, "unpin", [this](auto& q, auto& a) { unpin(q, a); });
   requests.serve<GetGraspEvents>(
       node, "get_grasp_events", [this](auto& q, auto& a) { onGetGraspEvents(q, a); },
       Effect::LOOKS);
   targets_ = node.subscribe("grasp_targets", 10, &GraspServices::onTargets, this);
 }
 
-void GraspServices::onGrasp(const Grasp::Request& request, Grasp::Response& response)
+void GraspServices::grasp(const Grasp::Request& request, Grasp::Response& response)
 {
   cloth::refuseIf(problems(request));
   cloth::GraspRequest wish = toCore(request, context_.frames.toCloth(request.header));
@@ -74,7 +62,7 @@ void GraspServices::onDrag(const Drag::Request& request)
       });
 }
 
-void GraspServices::onRelease(const Release::Request& request, Release::Response& response)
+void GraspServices::release(const Release::Request& request, Release::Response& response)
 {
   const std::uint64_t id = request.grasp_id;
   const bool pin = request.pin != 0;
@@ -92,8 +80,22 @@ void GraspServices::onRelease(const Release::Request& request, Release::Response
       }));
 }
 
+void GraspServices::pin(const Pin::Request& request, Pin::Response& response)
+{
+  changePins(request, response,
+             [](cloth::Simulation& simulation, const cloth::PinRequest& pins)
+             { return simulation.pin(pins); });
+}
+
+void GraspServices::unpin(const Pin::Request& request, Pin::Response& response)
+{
+  changePins(request, response,
+             [](cloth::Simulation& simulation, const cloth::PinRequest& pins)
+             { return simulation.unpin(pins); });
+}
+
 template <class Change>
-void GraspServices::onPins(const Pin::Request& request, Pin::Response& response, Change change)
+void GraspServices::changePins(const Pin::Request& request, Pin::Response& response, Change change)
 {
   cloth::refuseIf(problems(request));
   const cloth::Pose to_cloth =
@@ -123,19 +125,20 @@ void GraspServices::onGetGraspEvents(const GetGraspEvents::Request& request,
 
 void GraspServices::onTargets(const GraspTargets::ConstPtr& message)
 {
-  context_.requests.hear("grasp_targets",
-                         [&]
-                         {
-                           cloth::refuseIf(problems(*message));
-                           const cloth::Pose to_cloth = context_.frames.toCloth(message->header);
-                           context_.loop.call([&](cloth::Simulation& simulation)
-                                              { steer(simulation, *message, to_cloth); });
-                         });
+  context_.requests.hear("grasp_targets", [&] { steer(*message); });
+}
+
+void GraspServices::steer(const GraspTargets& message)
+{
+  cloth::refuseIf(problems(message));
+  const cloth::Pose to_cloth = context_.frames.toCloth(message.header);
+  context_.loop.call([&](cloth::Simulation& simulation)
+                     { steerAll(simulation, message, to_cloth); });
 }
 
 /// All of them or none. A grasp gets there in the simulated time since it was last steered.
-void GraspServices::steer(cloth::Simulation& simulation, const GraspTargets& message,
-                          const cloth::Pose& to_cloth)
+void GraspServices::steerAll(cloth::Simulation& simulation, const GraspTargets& message,
+                             const cloth::Pose& to_cloth)
 {
   std::vector<cloth::Pose> poses;
   std::vector<std::string> found;

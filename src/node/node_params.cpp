@@ -124,6 +124,16 @@ std::vector<std::string> problems(const MarkerStyle& style)
   return found;
 }
 
+std::vector<std::string> problems(const HandleParams& handles)
+{
+  std::vector<std::string> found;
+  check(found, "rate [Hz]", handles.rate, Range::between(0.1, 1000.0));
+  check(found, "radius [m]", handles.radius, Range::between(1e-4, 1000.0));
+  check(found, "throw_speed [m/s]", handles.throw_speed, Range::aboveUpTo(0.0, 1000.0));
+  check(found, "ball_radius [m]", handles.ball_radius, Range::between(1e-4, 100.0));
+  return found;
+}
+
 std::vector<std::string> problems(const NodeParams& params)
 {
   std::vector<std::string> found;
@@ -143,6 +153,7 @@ std::vector<std::string> problems(const NodeParams& params)
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
   append(found, "markers/", problems(params.markers));
+  append(found, "handles/", problems(params.handles));
   if (!params.model_file.empty())
   {
     checkPath(found, "model_file", params.model_file);

@@ -42,6 +42,15 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.read("max_state_memory", params.states.max_state_memory);
 }
 
+void readHandles(ParamReader& reader, HandleParams& handles)
+{
+  reader.read("handles/enabled", handles.enabled);
+  reader.read("handles/rate", handles.rate);
+  reader.read("handles/radius", handles.radius);
+  reader.read("handles/throw_speed", handles.throw_speed);
+  reader.read("handles/ball_radius", handles.ball_radius);
+}
+
 void readRectangle(ParamReader& reader, cloth::RectangleParams& rectangle)
 {
   reader.read("rectangle/width", rectangle.width);
@@ -174,6 +183,7 @@ void readAll(ParamReader& reader, NodeParams& params)
 {
   readNode(reader, params);
   readMarkers(reader, params.markers);
+  readHandles(reader, params.handles);
   readModel(reader, params);
   readPhysics(reader, params.simulation);
   readTearing(reader, params.simulation.tearing);

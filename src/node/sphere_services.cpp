@@ -13,12 +13,12 @@ namespace cloth_tearing
 SphereServices::SphereServices(const NodeContext& context) : context_(context)
 {
   context_.requests.serve<ThrowSphere>(context_.node, "throw_sphere",
-                                       [this](auto& q, auto& a) { onThrowSphere(q, a); });
+                                       [this](auto& q, auto& a) { throwSphere(q, a); });
   spheres_ = context_.node.subscribe("spheres", 1, &SphereServices::onSpheres, this);
 }
 
-void SphereServices::onThrowSphere(const ThrowSphere::Request& request,
-                                   ThrowSphere::Response& response)
+void SphereServices::throwSphere(const ThrowSphere::Request& request,
+                                 ThrowSphere::Response& response)
 {
   cloth::refuseIf(problems(request));
   const cloth::ThrowRequest wish = toCore(request, context_.frames.toCloth(request.header));

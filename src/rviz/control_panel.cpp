@@ -103,11 +103,11 @@ ControlPanel::ControlPanel(QWidget* parent) : rviz::Panel(parent)
   auto* rows = new QVBoxLayout(content);
   rows->setContentsMargins(6, 6, 6, 6);
   rows->addLayout(makeNodeRow());
+  rows->addWidget(makeControls());
   fault_ = makeText("fault");
   fault_->setStyleSheet(PROBLEM_STYLE);
   fault_->hide();
   rows->addWidget(fault_);
-  rows->addWidget(makeControls());
   answer_ = makeText("answer");
   answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   answer_->setMinimumHeight(ANSWER_LINES * answer_->fontMetrics().lineSpacing());
@@ -273,14 +273,17 @@ QLayout* ControlPanel::makeStates()
   connect(state_name_, &QLineEdit::textEdited, this, &ControlPanel::configChanged);
   connect(in_file_, &QCheckBox::toggled, this, &ControlPanel::configChanged);
 
-  auto* table = new QGridLayout;
-  table->addWidget(labelFor(state_name_, "State na&me", state_name_->toolTip()), 0, 0);
-  table->addWidget(state_name_, 0, 1, 1, 2);
-  table->addWidget(save, 1, 0);
-  table->addWidget(restore, 1, 1);
-  table->addWidget(in_file_, 1, 2);
-  table->setColumnStretch(1, 1);
-  return table;
+  auto* name = new QHBoxLayout;
+  name->addWidget(labelFor(state_name_, "State na&me", state_name_->toolTip()));
+  name->addWidget(state_name_, 1);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(save, 1);
+  buttons->addWidget(restore, 1);
+  buttons->addWidget(in_file_);
+  auto* rows = new QVBoxLayout;
+  rows->addLayout(name);
+  rows->addLayout(buttons);
+  return rows;
 }
 
 void ControlPanel::onInitialize()
@@ -345,7 +348,7 @@ void ControlPanel::choose(const QString& node)
   asked_.clear();
   speed_sender_.setServer(name);
   strain_sender_.setServer(name + "/tearing");
-  onSilence("waiting for " + QString::fromStdString(name));
+  onSilence("waiting");
   say("");
   watch_.follow(name);
   Q_EMIT configChanged();
@@ -485,9 +488,9 @@ void ControlPanel::showStrains(const Config& values)
 void ControlPanel::onSilence(const QString& why)
 {
   controls_->setEnabled(false);
-  state_->setText("");
-  fault_->setText(why);
-  fault_->show();
+  state_->setText(why);
+  state_->setStyleSheet(PROBLEM_STYLE);
+  fault_->hide();
   refusals_.reset();
 }
 

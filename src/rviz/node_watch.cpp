@@ -162,12 +162,11 @@ void NodeWatch::onTimer()
 
 QString NodeWatch::silence() const
 {
-  const QString node = QString::fromStdString(node_);
   if (!seen_.master)
   {
-    return "the ROS master is gone";
+    return "no ROS master";
   }
-  return node + (seen_.nodes.contains(node) ? " is silent" : " is not running");
+  return seen_.nodes.contains(QString::fromStdString(node_)) ? "silent" : "not running";
 }
 
 }  // namespace cloth_tearing

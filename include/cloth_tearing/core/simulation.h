@@ -213,6 +213,12 @@ public:
   std::uint64_t throwAtCloth(SphereSource source, std::uint64_t id, double speed);
 
   /// @throws Refusal if there is no such sphere
+  const Sphere& findSphere(SphereSource source, std::uint64_t id) const
+  {
+    return spheres_.find(source, id);
+  }
+
+  /// @throws Refusal if there is no such sphere
   void removeSphere(SphereSource source, std::uint64_t id) { spheres_.remove(source, id); }
 
   /// Changes parameters from the next step on, of the torn cloth and of the one that reset() goes

@@ -6,6 +6,8 @@
 #include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 
+#include <memory>
+
 #include "cloth_tearing/core/simulation_loop.h"
 #include "cloth_tearing/node/clock_publisher.h"
 #include "cloth_tearing/node/cloth_publisher.h"
@@ -13,6 +15,7 @@
 #include "cloth_tearing/node/frame_follower.h"
 #include "cloth_tearing/node/frames.h"
 #include "cloth_tearing/node/grasp_services.h"
+#include "cloth_tearing/node/handle_server.h"
 #include "cloth_tearing/node/live_tuning.h"
 #include "cloth_tearing/node/model_services.h"
 #include "cloth_tearing/node/node_params.h"
@@ -64,6 +67,7 @@ private:
   StateServices states_;
   LiveTuning tuning_;
   ModelServices models_;
+  std::unique_ptr<HandleServer> handles_;  ///< none unless wanted
   ros::AsyncSpinner spinner_;
   ros::AsyncSpinner step_spinner_;
 };

@@ -16,21 +16,31 @@ namespace cloth_tearing
 {
 
 /// ~grasp, ~drag, ~release, ~pin, ~unpin, ~get_grasp_events and ~grasp_targets.
+///
+/// Some of them are public, for others who ask for the same; they may be called from any thread but
+/// the loop's.
 class GraspServices
 {
 public:
   explicit GraspServices(const NodeContext& context);
 
+  /// @throws std::exception with the reason of a refusal, as all of these
+  void grasp(const Grasp::Request& request, Grasp::Response& response);
+  void release(const Release::Request& request, Release::Response& response);
+  void pin(const Pin::Request& request, Pin::Response& response);
+  void unpin(const Pin::Request& request, Pin::Response& response);
+
+  /// What ~grasp_targets does.
+  void steer(const GraspTargets& message);
+
 private:
-  void onGrasp(const Grasp::Request& request, Grasp::Response& response);
   void onDrag(const Drag::Request& request);
-  void onRelease(const Release::Request& request, Release::Response& response);
   template <class Change>
-  void onPins(const Pin::Request& request, Pin::Response& response, Change change);
+  void changePins(const Pin::Request& request, Pin::Response& response, Change change);
   void onGetGraspEvents(const GetGraspEvents::Request& request, GetGraspEvents::Response& response);
   void onTargets(const GraspTargets::ConstPtr& message);
-  void steer(cloth::Simulation& simulation, const GraspTargets& message,
-             const cloth::Pose& to_cloth);
+  void steerAll(cloth::Simulation& simulation, const GraspTargets& message,
+                const cloth::Pose& to_cloth);
 
   NodeContext context_;
   ros::Subscriber targets_;

@@ -43,6 +43,16 @@ struct MarkerStyle
   double point_size = 0.016;  ///< weak points and held particles [m], > 0
 };
 
+/// Handles by which users of interactive markers take hold of cloth and spheres.
+struct HandleParams
+{
+  bool enabled = false;
+  double rate = 20.0;         ///< they follow what they are on so often [Hz], 0.1 to 1000
+  double radius = 0.05;       ///< the hand holds and pins what is within [m], 0.0001 to 1000
+  double throw_speed = 10.0;  ///< of balls that are thrown by them [m/s], > 0, at most 1000
+  double ball_radius = 0.06;  ///< of those that the hand throws [m], 0.0001 to 100
+};
+
 /// The defaults make a usable node. `simulation` holds the height of the floor in frame_id and the
 /// strength map in model coordinates here; see inClothFrame().
 struct NodeParams
@@ -79,12 +89,14 @@ struct NodeParams
   double surface_rate = 30.0;      ///< ~surface at most so often [Hz], 0.1 to 1000
   double status_rate = 10.0;       ///< ~status so often [Hz], 0.1 to 1000
   MarkerStyle markers;
+  HandleParams handles;
 };
 
 /// Everything wrong with `params`, one sentence each, naming the parameter; empty if they can be
 /// used.
 std::vector<std::string> problems(const NodeParams& params);
 std::vector<std::string> problems(const MarkerStyle& style);
+std::vector<std::string> problems(const HandleParams& handles);
 
 /// Everything wrong with where the cloth is: frame_id and cloth_pose/position [m] in it.
 std::vector<std::string> placeProblems(const std::string& frame_id, const cloth::Vec3d& position);

@@ -67,8 +67,9 @@ public:
 
   /// Does `work`, which came as a message on the topic `name`. Nobody waits for an answer: a
   /// refusal is a warning.
+  /// @return why it was refused; empty if it was done
   template <class Work>
-  void hear(const std::string& name, Work work)
+  std::string hear(const std::string& name, Work work)
   {
     const std::string reason = refusal(name, work);
     if (reason.empty())
@@ -79,6 +80,7 @@ public:
     {
       ROS_WARN_STREAM("A message on " << name << " was refused: " << reason);
     }
+    return reason;
   }
 
   /// Does `work`, which was asked for as `name`.

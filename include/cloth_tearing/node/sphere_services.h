@@ -16,8 +16,11 @@ class SphereServices
 public:
   explicit SphereServices(const NodeContext& context);
 
+  /// For others who ask for the same, from any thread but the loop's.
+  /// @throws std::exception with the reason of a refusal
+  void throwSphere(const ThrowSphere::Request& request, ThrowSphere::Response& response);
+
 private:
-  void onThrowSphere(const ThrowSphere::Request& request, ThrowSphere::Response& response);
   void onSpheres(const CollisionSpheres::ConstPtr& message);
   std::vector<cloth::Sphere> placed(const CollisionSpheres& message) const;
 

@@ -42,6 +42,7 @@ Q_SIGNALS:
   void valuesCame(const QString& server, const dynamic_reconfigure::Config& values);
 
   /// There was no status for a while. Comes again when the reason is another.
+  /// @param why in a word or two
   void fellSilent(const QString& why);
 
   /// All nodes that publish a status.
