@@ -185,9 +185,6 @@ class ClothDisplay(RvizTest):
         cls.publishers.pop(f"/{name}/surface").unregister()
         cls.publish(name, message, listener=listener)
 
-    def panel_has(self, picture, sign):
-        return picture.has_sign(sign, (0, 0, self.scene[0], HEIGHT))
-
     def region(self, x, z, width=SIZE, height=SIZE, margin=0.03):
         """Where a part of the plane y = 0 is drawn, with a margin [m]."""
         left, top, right, bottom = self.scene
@@ -216,7 +213,7 @@ class ClothDisplay(RvizTest):
                                 p.shows(QUARTERS.values(), self.region(-0.5, 1.1)))
 
         self.keep("two")
-        self.assertFalse(self.panel_has(picture, ERROR), "a status is red")
+        self.assertFalse(picture.has_sign(ERROR), "a status is red")
         # The image is upright and not mirrored, and the frame of the second is raised by tf.
         middles = {name: picture.middle(color, self.scene) for name, color in QUARTERS.items()}
         self.assertLess(middles["magenta"][0], middles["green"][0])
@@ -245,7 +242,7 @@ class ClothDisplay(RvizTest):
             getattr(bad, field)[4] = value
             self.publish("cloth", bad)
 
-        picture = self.wait_for("a red status", lambda p: self.panel_has(p, ERROR))
+        picture = self.wait_for("a red status", lambda p: p.has_sign(ERROR))
 
         self.keep("malformed")
         self.assertTrue(self.cloth_is_at(picture, HIGH_UP), "the cloth before it stays")
@@ -256,19 +253,19 @@ class ClothDisplay(RvizTest):
         self.publish("cloth", square(*HIGH_UP))
 
         self.wait_for("no red status",
-                      lambda p: not self.panel_has(p, ERROR) and self.cloth_is_at(p, HIGH_UP))
+                      lambda p: not p.has_sign(ERROR) and self.cloth_is_at(p, HIGH_UP))
 
     def test_05_warns_when_the_node_is_gone_and_goes_on_when_it_is_back(self):
         self.publishers.pop("/cloth/surface").unregister()
         self.wait_for("a warning",
-                      lambda p: self.panel_has(p, WARNING) and self.cloth_is_at(p, HIGH_UP))
+                      lambda p: p.has_sign(WARNING) and self.cloth_is_at(p, HIGH_UP))
         self.keep("gone")
 
         self.publish("cloth", square(*LOWER))
 
-        picture = self.wait_for("the cloth of the new node", lambda p: not self.panel_has(p, WARNING) and
+        picture = self.wait_for("the cloth of the new node", lambda p: not p.has_sign(WARNING) and
                                 self.cloth_is_at(p, LOWER))
-        self.assertFalse(self.panel_has(picture, ERROR))
+        self.assertFalse(picture.has_sign(ERROR))
 
     def test_06_colours_by_strain_between_the_ends_of_the_range(self):
         where = self.region(0.3, 0.1)
@@ -330,8 +327,8 @@ class ClothDisplay(RvizTest):
 
         self.wait_until("it has subscribed anew", lambda: listener.count > before)
         picture = self.wait_for("the cloth", lambda p: self.cloth_is_at(p, HIGH_UP) and
-                                not self.panel_has(p, WARNING))
-        self.assertFalse(self.panel_has(picture, ERROR))
+                                not p.has_sign(WARNING))
+        self.assertFalse(picture.has_sign(ERROR))
 
     def test_11_goes_to_another_topic(self):
         self.publish("other", square(*LOWER))
@@ -345,7 +342,7 @@ class ClothDisplay(RvizTest):
         picture = self.wait_for("the other cloth alone", lambda p: self.cloth_is_at(p, LOWER))
 
         self.keep("other_topic")
-        self.assertFalse(self.panel_has(picture, ERROR))
+        self.assertFalse(picture.has_sign(ERROR))
 
 
 if __name__ == "__main__":

@@ -9,20 +9,29 @@ import xmlrpc.client
 import rosgraph
 import rospy
 from cloth_tearing.msg import GraspStates, SimulationStatus, TearEvent
-from cloth_tearing.srv import GetTearEvents, Grasp, GraspRequest, Release, Step
+from cloth_tearing.srv import GetTearEvents, Release, Step, ThrowSphere
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point, Vector3
 from rosgraph_msgs.msg import Log
+from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
-from rviz_window import ERROR, HEIGHT, PATIENCE, SHIPPED, SOURCE, WARNING, WIDTH, RvizTest, run
+from rviz_window import ERROR, PATIENCE, SHIPPED, SOURCE, WARNING, RvizTest, run
 
 PULL, THROW, INTERACT = "l", "t", "i"  # keys of the tools
 TORN = (217, 13, 89)                   # colour of torn edges
+# All colours of the shipped image but the light one.
+TEXTURE = (*SHIPPED.values(), (168, 34, 34), (33, 110, 80), (95, 45, 115))
+FRAME = "world"
 TOP, BOTTOM = 1.5, 0.5                 # of the cloth of config/cloth.yaml, a square about x = 0 [m]
 
-# The words on buttons of the panel get colours of their own, by which they are found.
-WIDGETS = {"pause": (150, 0, 0), "step": (0, 130, 0), "reset": (0, 0, 170), "save": (150, 110, 0),
-           "restore": (0, 110, 140)}
-STYLE = "\n".join(f"QPushButton#{name} {{ color: rgb{color}; }}" for name, color in WIDGETS.items())
+# Widgets of the panel are found by a colour of their own: of the words on buttons, behind the others.
+BUTTONS = {"pause": (141, 3, 5), "step": (3, 121, 5), "reset": (3, 5, 161), "save": (141, 101, 3),
+           "restore": (3, 101, 131)}
+FIELDS = {"speed_value": (215, 235, 255), "tear_strain_slider": (255, 225, 215),
+          "weak_strain_slider": (225, 255, 215)}
+STYLE = "".join(f"QPushButton#{name} {{ color: rgb{color}; }}\n" for name, color in BUTTONS.items())
+STYLE += "".join(f"#{name} {{ background-color: rgb{color}; }}\n" for name, color in FIELDS.items())
 
 
 class Node:
@@ -63,10 +72,11 @@ class Node:
     def tears(self, since=0):
         return self.ask("get_tear_events", GetTearEvents, since=since).events
 
-    def kill(self):
+    def end(self, how):
+        """Ends the process by a signal; roslaunch starts it again."""
         address = rosgraph.Master(rospy.get_name()).lookupNode(self.NAME)
         pid = xmlrpc.client.ServerProxy(address).getPid(rospy.get_name())[2]
-        os.kill(pid, signal.SIGKILL)
+        os.kill(pid, how)
 
 
 class RvizView(RvizTest):
@@ -84,17 +94,15 @@ class RvizView(RvizTest):
 
     def setUp(self):
         """A whole cloth, running and to be seen."""
+        self.addCleanup(self.pointer.release)  # whatever happens
         self.scene = self.wait_for_scene()
+        self.last_picture = None
         self.node.tell("reset")
         self.node.tell("resume")
         self.node.ask("release", Release)
         self.first_tear = 1 + max((tear.sequence for tear in self.node.tears()), default=0)
         self.wait_for("the cloth", lambda p: p.shows(SHIPPED.values(), self.scene, least=4000) and
                       p.count(TORN, self.scene) == 0)
-
-    def panel_has(self, picture, sign):
-        return (picture.has_sign(sign, (0, 0, self.scene[0], HEIGHT)) or
-                picture.has_sign(sign, (self.scene[2], 0, WIDTH, HEIGHT)))
 
     def cloth(self, picture):
         """The region that the whole cloth fills."""
@@ -107,8 +115,51 @@ class RvizView(RvizTest):
         left, top, right, bottom = self.cloth(self.screen.picture())
         return (round(left + across * (right - left)), round(top + down * (bottom - top)))
 
+    def textured_beside_tear(self, picture, width=60):
+        """Whether there are colours of the texture left and right of all torn edges."""
+        if picture.count(TORN, self.scene) < 30:
+            return False
+        left, top, right, bottom = picture.box(TORN, self.scene)
+        return all(max(picture.count(color, beside) for color in TEXTURE) > 100 for beside in
+                   ((left - width, top, left, bottom), (right, top, right + width, bottom)))
+
+    def stands_still(self, picture):
+        last, self.last_picture = self.last_picture, picture
+        return last is not None and picture.changed(last, self.scene, least=1) == 0
+
+    def tear(self):
+        """A hole, without the pointer."""
+        header = Header(frame_id=FRAME)
+        self.node.ask("throw_sphere", ThrowSphere, header=header, radius=0.06, velocity=Vector3(y=8.0),
+                      center=Point(y=-1.0, z=0.5 * (TOP + BOTTOM)))
+        self.wait_until("tears", self.new_tears)
+
     def new_tears(self):
         return self.node.tears(self.first_tear)
+
+    def panels(self):
+        """What is on the display but for the scene."""
+        return self.screen.picture().without(self.scene)
+
+    def click(self, button):
+        """On a button of the panel."""
+        left, top, right, bottom = self.widget(BUTTONS[button])
+        self.pointer.click((left + right) // 2, (top + bottom) // 2)
+
+    def widget(self, color):
+        """The region of a widget of the panel."""
+        return self.wait_until(f"a widget in {color}", lambda: self.panels().box(color, tolerance=0))
+
+    def drag_to_the_end(self, slider):
+        """Takes a slider's handle: there it is, between the part before it and the part behind it."""
+        left, top, right, bottom = self.widget(FIELDS[slider])
+        y = (top + bottom) // 2
+        self.pointer.click(left + 8, y)
+        self.pointer.key("Home")
+        self.pointer.move(left + 5, y)
+        self.pointer.press()
+        self.pointer.move(right, y)
+        self.pointer.release()
 
     def take_tool(self, key):
         """By its key; the scene has the keys when the pointer was in it."""
@@ -120,8 +171,8 @@ class RvizView(RvizTest):
         picture = self.screen.picture()
 
         self.keep("opened")
-        self.assertFalse(self.panel_has(picture, ERROR), "a status is red")
-        self.assertFalse(self.panel_has(picture, WARNING), "a status is yellow")
+        self.assertFalse(picture.has_sign(ERROR), "a status is red")
+        self.assertFalse(picture.has_sign(WARNING), "a status is yellow")
         self.assertEqual(self.errors, [])
 
     def test_02_a_pull_with_the_pointer_tears_the_cloth(self):
@@ -132,6 +183,7 @@ class RvizView(RvizTest):
 
         self.pointer.press()
         grasp, = self.wait_until("a grasp", self.node.grasps)
+        self.wait_for("what is held", lambda p: p.changed(before, (x - 20, y - 20, x + 20, y + 20)) > 0.2)
         self.keep("held")
         at = grasp.pose.position
         self.assertLess(abs(at.x), 0.1)
@@ -139,15 +191,11 @@ class RvizView(RvizTest):
         self.pointer.move(x, y + 150)
         self.wait_until("tears", lambda: len(self.new_tears()) >= 5)
 
-        torn = self.wait_for("torn edges", lambda p: p.count(TORN, self.scene) > 30)
+        self.wait_for("a tear with the texture on both sides", lambda p: self.textured_beside_tear(p) and
+                      p.changed(before, self.cloth(before)) > 0.05)
         self.keep("pulled")
         self.assertEqual(self.new_tears()[0].cause, TearEvent.GRASP)
         self.assertEqual(self.new_tears()[0].cause_id, grasp.grasp_id)
-        self.assertGreater(torn.changed(before, self.cloth(before)), 0.05)
-        left, top, right, bottom = torn.box(TORN, self.scene)
-        for beside in ((left - 40, top, left, bottom), (right, top, right + 40, bottom)):
-            self.assertTrue(any(torn.count(color, beside) > 50 for color in SHIPPED.values()),
-                            "texture on both sides of the tear")
         self.pointer.release()
         self.wait_until("it is let go", lambda: not self.node.grasps())
 
@@ -165,18 +213,81 @@ class RvizView(RvizTest):
         self.keep("thrown")
         self.assertEqual(self.new_tears()[0].cause, TearEvent.THROWN_SPHERE)
 
-    def test_09_goes_on_with_a_node_that_was_killed_and_started_again(self):
-        time_before = self.node.status().time
-        self.node.kill()
-        self.wait_for("a warning", lambda p: self.panel_has(p, WARNING))
+    def test_05_buttons_of_the_panel_pause_step_and_reset(self):
+        self.click("pause")
+        self.wait_until("a pause", lambda: self.node.status().paused)
+        step, epoch = self.node.status().step, self.node.status().epoch
+        still = self.wait_for("a still picture", self.stands_still)
+
+        self.click("step")
+        self.wait_until("a step", lambda: self.node.status().step > step)
+        self.assertTrue(self.node.status().paused)
+        self.click("reset")
+        self.wait_until("a reset", lambda: self.node.status().epoch > epoch)
+        self.assertEqual(self.node.status().step, 0)
+        self.wait_for("the cloth of the start", lambda p: p.changed(still, self.scene) > 0.001)
+
+        self.click("pause")
+        self.wait_until("it goes on", lambda: not self.node.status().paused and self.node.status().step > 0)
+
+    def test_06_the_panel_tunes_the_node(self):
+        tearing = Client("/cloth/tearing", timeout=PATIENCE)
+        solver = Client("/cloth", timeout=PATIENCE)
+        for name, client in (("tear_strain", tearing), ("weak_tear_strain", tearing), ("speed", solver)):
+            self.addCleanup(client.update_configuration, {name: client.get_configuration()[name]})
+
+        self.drag_to_the_end("tear_strain_slider")
+        self.wait_until("more strength", lambda: tearing.get_configuration()["tear_strain"] > 1.0)
+        self.drag_to_the_end("weak_strain_slider")
+        self.wait_until("more at weak points", lambda: tearing.get_configuration()["weak_tear_strain"] > 1.0)
+        left, top, right, bottom = self.widget(FIELDS["speed_value"])
+        self.pointer.click((left + right) // 2, (top + bottom) // 2)
+        self.pointer.focus("RViz")
+        self.pointer.key("ctrl+a")
+        self.pointer.write("0.5")
+        self.pointer.key("Return")
+        self.wait_until("half the speed", lambda: self.node.status().speed == 0.5)
+        self.keep("tuned")
+
+    def test_07_the_panel_saves_and_restores_torn_and_whole_cloth(self):
+        self.node.tell("pause")
+        self.wait_for("a still picture", self.stands_still)
+        before = self.screen.picture()
+        whole = self.node.ask("step", Step, steps=0).state_hash
+        self.click("save")
+        self.wait_for("the answer", lambda p: p.changed(before) > 0)
+        self.node.tell("resume")
+        self.tear()
+        self.wait_for("a torn cloth", lambda p: p.changed(before, self.scene) > 0.01 and
+                      p.count(TORN, self.scene) > 30)
+        self.keep("before_restore")
+        self.node.tell("pause")
+
+        self.click("restore")
+
+        self.wait_until("the saved state", lambda: self.node.status().state_hash == whole)
+        self.wait_for("the picture from before", lambda p: p.changed(before, self.scene) < 0.001)
+        self.keep("restored")
+
+    def test_08_shows_the_new_cloth_of_a_node_that_was_killed(self):
+        self.tear()
+        self.wait_for("a torn cloth", lambda p: p.count(TORN, self.scene) > 30)
+
+        self.node.end(signal.SIGKILL)
+
+        whole = self.wait_for("a whole one", lambda p: p.count(TORN, self.scene) == 0 and
+                              p.shows(SHIPPED.values(), self.scene, least=4000))
+        self.assertFalse(whole.has_sign(ERROR), "a status is red")
+
+    def test_09_warns_while_the_node_is_not_there(self):
+        self.node.end(signal.SIGINT)
+        self.wait_for("a warning", lambda p: p.has_sign(WARNING))
         self.keep("node_gone")
 
-        self.wait_until("a new node", lambda: self.node.status().time < time_before)
-
-        picture = self.wait_for("its cloth", lambda p: not self.panel_has(p, WARNING) and
+        picture = self.wait_for("its cloth", lambda p: not p.has_sign(WARNING) and
                                 p.shows(SHIPPED.values(), self.scene, least=4000))
         self.keep("node_back")
-        self.assertFalse(self.panel_has(picture, ERROR), "a status is red")
+        self.assertFalse(picture.has_sign(ERROR), "a status is red")
 
 
 if __name__ == "__main__":

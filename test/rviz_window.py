@@ -86,6 +86,13 @@ class Picture:
         here, there = self._part(region)[0], other._part(region)[0]
         return (abs(here - there).max(axis=2) >= least).mean()
 
+    def without(self, region):
+        """The same picture with a region left black."""
+        left, top, right, bottom = region
+        pixels = self.pixels.copy()
+        pixels[top:bottom, left:right] = 0
+        return Picture(pixels)
+
     def scene(self):
         """The region in which rviz draws, by its background; None if there is none."""
         empty = (self.pixels == numpy.array(BACKGROUND, numpy.uint8)).all(axis=2)
@@ -95,8 +102,9 @@ class Picture:
             return None
         return (columns[0], rows[0], columns[-1] + 1, rows[-1] + 1)
 
-    def has_sign(self, color, region):
-        return self.count(color, region, tolerance=2) >= LEAST_SIGN
+    def has_sign(self, color):
+        """Whether a panel shows one."""
+        return self.without(self.scene()).count(color, tolerance=2) >= LEAST_SIGN
 
     def save(self, path):
         write_png(path, self.pixels)
