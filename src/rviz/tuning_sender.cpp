@@ -3,6 +3,7 @@
 
 #include <dynamic_reconfigure/config_tools.h>
 
+#include <QPointer>
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -57,7 +58,13 @@ void TuningSender::send()
   calling_ = true;
   pause_.start(INTERVAL);
   caller_.call<Reconfigure>(server_ + "/set_parameters", request,
-                            [this, sent](const auto& answer) { onAnswer(sent, answer); });
+                            [self = QPointer<TuningSender>(this), sent](const auto& answer)
+                            {
+                              if (self)
+                              {
+                                self->onAnswer(sent, answer);
+                              }
+                            });
 }
 
 void TuningSender::onAnswer(const Values& sent,
