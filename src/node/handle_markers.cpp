@@ -19,19 +19,22 @@ struct Rgba
   float r, g, b, a;
 };
 
-constexpr Rgba GRASP_COLOR = { 0.10F, 0.65F, 0.25F, 0.75F };
+constexpr Rgba GRASP_COLOR = { 1.00F, 0.90F, 0.10F, 0.90F };
 constexpr Rgba FOLLOWING_COLOR = { 0.45F, 0.50F, 0.55F, 0.75F };
 constexpr Rgba SPHERE_COLOR = { 1.00F, 1.00F, 1.00F, 0.30F };
 constexpr Rgba HAND_COLOR = { 0.20F, 0.40F, 0.90F, 0.45F };
+constexpr Rgba NOTE_COLOR = { 0.70F, 0.05F, 0.05F, 1.00F };
 
-constexpr double GRASP_BALL = 0.4;     // of what the hand takes hold of: the cloth is to be seen
+constexpr double GRASP_BALL = 0.5;     // of what the hand takes hold of: the cloth is to be seen
 constexpr double SPHERE_SHELL = 1.05;  // of the sphere itself, to be in front of it
-constexpr double AXES = 5.0;           // from end to end, in radii of the hand
+constexpr double AXES = 3.5;           // from end to end, in radii of the hand
 constexpr double ARROW_LENGTH = 2.0;   // of the direction in which it throws, likewise
 constexpr double ARROW_SHAFT = 0.25;
 constexpr double ARROW_HEAD = 0.5;
 
-constexpr std::size_t NOTE_WIDTH = 36;  // characters in a line
+constexpr std::size_t NOTE_WIDTH = 30;  // characters in a line
+constexpr double NOTE_HEIGHT = 0.2;     // of a line, in sizes of the handle
+constexpr double NOTE_PLACE = 1.0;      // above it, likewise
 
 const char* wordsOf(HandleCommand command)
 {
@@ -126,6 +129,21 @@ Marker arrow(const Handle& handle)
   marker.scale.x = ARROW_SHAFT * handle.radius;
   marker.scale.y = ARROW_HEAD * handle.radius;
   return marker;
+}
+
+/// Why it was refused. Some clients draw the description in white, which is not seen everywhere.
+InteractiveMarkerControl noteOf(const Handle& handle)
+{
+  InteractiveMarkerControl control;
+  control.name = "note";
+  control.orientation.w = 1.0;
+  control.always_visible = true;
+  Marker words = shape(Marker::TEXT_VIEW_FACING, NOTE_COLOR);
+  words.text = wrapped(handle.note);
+  words.scale.z = NOTE_HEIGHT * handle.size;
+  words.pose.position.z = NOTE_PLACE * handle.size;
+  control.markers.push_back(words);
+  return control;
 }
 
 /// What is dragged by the pointer in the view plane, or has the menu alone.
@@ -296,6 +314,10 @@ InteractiveMarker draw(const Handle& handle, const Placement& placement)
   marker.pose = toPose(handle.pose, placement);
   marker.scale = static_cast<float>(handle.size);
   marker.controls.push_back(body(handle));
+  if (!handle.note.empty())
+  {
+    marker.controls.push_back(noteOf(handle));
+  }
   if (handle.followed.empty() &&
       (handle.kind == HandleKind::GRASP || handle.kind == HandleKind::HAND))
   {
