@@ -133,7 +133,9 @@ void HoldState::hear(const GraspEvents& events)
 void HoldState::hear(const SimulationStatus& status, double now)
 {
   last_heard_ = now;
-  stands_ = status.paused || status.pace == "step";
+  stands_ = status.pace == "step" ? "it only moves by steps"
+            : status.paused       ? "it moves when it is resumed"
+                                  : "";
 }
 
 void HoldState::loseNode()
@@ -170,7 +172,7 @@ std::string HoldState::hindrance(double now) const
   {
     return ". SILENT for " + std::to_string(static_cast<int>(now - last_heard_)) + " s";
   }
-  return stands_ ? ". The simulation stands: the cloth moves when it is resumed" : "";
+  return stands_.empty() ? std::string() : ". The simulation stands: " + stands_;
 }
 
 }  // namespace cloth_tearing

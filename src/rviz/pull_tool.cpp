@@ -68,7 +68,7 @@ void PullTool::deactivate()
     hold.second.rest();
   }
   panel_.clear();
-  ball_->getRootNode()->setVisible(false);
+  show({});
 }
 
 // -- mouse ---------------------------------------------------------------------------------------
@@ -163,7 +163,7 @@ void PullTool::update(float /*wall_dt*/, float /*ros_dt*/)
   {
     hold.second.update();
   }
-  showBall();
+  show(ballNow());
   tell();
 }
 
@@ -177,28 +177,44 @@ std::optional<PickedCloth> PullTool::underPointer() const
   return pickCloth(*context_, viewOf(viewport).through(placeIn(viewport, x_, y_)));
 }
 
-/// Where the cloth would be held, or where it is to be.
-void PullTool::showBall()
+bool PullTool::Ball::operator==(const Ball& other) const
 {
-  std::optional<cloth::Vec3d> middle;
-  const bool holding = pressed_ && hold_->busy();
-  if (holding)
+  return middle == other.middle && radius == other.radius && holding == other.holding;
+}
+
+/// Where the cloth would be held, or where it is to be.
+PullTool::Ball PullTool::ballNow() const
+{
+  Ball ball;
+  ball.radius = std::max(radius_->getFloat(), LEAST_BALL);
+  ball.holding = pressed_ && hold_->busy();
+  if (ball.holding)
   {
-    middle = drag_.point();
+    ball.middle = drag_.point();
   }
   else if (!buttons_)
   {
     if (const std::optional<PickedCloth> cloth = underPointer())
     {
-      middle = cloth->point;
+      ball.middle = cloth->point;
     }
   }
-  ball_->getRootNode()->setVisible(middle.has_value());
-  if (middle)
+  return ball;
+}
+
+void PullTool::show(const Ball& ball)
+{
+  if (ball == shown_)
   {
-    ball_->setColor(holding ? HOLDING : HOVERING);
-    ball_->setPosition(toOgre(*middle));
-    ball_->setScale(Ogre::Vector3(2.0F * std::max(radius_->getFloat(), LEAST_BALL)));
+    return;
+  }
+  shown_ = ball;
+  ball_->getRootNode()->setVisible(ball.middle.has_value());
+  if (ball.middle)
+  {
+    ball_->setColor(ball.holding ? HOLDING : HOVERING);
+    ball_->setPosition(toOgre(*ball.middle));
+    ball_->setScale(Ogre::Vector3(2.0F * ball.radius));
   }
   context_->queueRender();
 }

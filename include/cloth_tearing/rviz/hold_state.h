@@ -74,7 +74,7 @@ private:
   bool seen_ = false;        ///< among the node's grasps
   double since_ = 0.0;       ///< of the answer
   double last_heard_ = 0.0;  ///< of the node
-  bool stands_ = false;      ///< the simulation
+  std::string stands_;       ///< when the simulation will move; empty = it does
   bool ended_alone_ = false;
   std::string note_;  ///< how the last one ended; empty = there was none yet
 };

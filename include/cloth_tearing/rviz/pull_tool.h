@@ -45,12 +45,23 @@ protected:
   void onInitialize() override;
 
 private:
+  /// A ball around the pointer; none, if it has no middle.
+  struct Ball
+  {
+    std::optional<cloth::Vec3d> middle;  ///< in the fixed frame [m]
+    float radius = 0.0F;                 ///< [m]
+    bool holding = false;
+
+    bool operator==(const Ball& other) const;
+  };
+
   bool take(const rviz::ViewportMouseEvent& event);
   void lead(const rviz::ViewportMouseEvent& event);
   void letGo(bool pin);
   void changeRadius(int wheel_delta);
   std::optional<PickedCloth> underPointer() const;
-  void showBall();
+  Ball ballNow() const;
+  void show(const Ball& ball);
   void tell();
   QString words() const;
 
@@ -67,6 +78,7 @@ private:
   bool buttons_ = false;  ///< any of them is down
   bool shift_ = false;
   std::unique_ptr<rviz::Shape> ball_;
+  Ball shown_;
 };
 
 }  // namespace cloth_tearing
