@@ -19,8 +19,9 @@ SIZE = 0.5  # of each cloth [m]
 HIGH_UP, LOWER = (-1.1, 1.1), (-1.1, 0.8)  # where the first cloth is, x and z [m]
 
 # Looks along y: x is to the right, z is up.
-DISTANCE, FIELD_OF_VIEW = 2.4, 0.785398  # [m], [rad], from top to bottom
-MIDDLE_X, MIDDLE_Z = 0.0, 0.9            # [m]
+CAMERA = {"Class": "rviz/Orbit", "Name": "Current View", "Distance": 2.4, "Field of View": 0.785398,
+          "Focal Point": {"X": 0.0, "Y": 0.0, "Z": 0.9}, "Pitch": 0.0, "Yaw": -0.5 * math.pi,
+          "Target Frame": "<Fixed Frame>"}
 
 # The ends of the colours of strain, and what they stand for.
 LOW, MIDDLE, HIGH = (26, 64, 217), (255, 255, 255), (217, 26, 26)
@@ -70,10 +71,7 @@ def make_view(image):
     manager = view["Visualization Manager"]
     shipped = next(d for d in manager["Displays"] if d["Class"] == "cloth_tearing/Cloth")
     manager["Displays"] = [shipped] + displays(image)
-    manager["Views"]["Current"] = {
-        "Class": "rviz/Orbit", "Name": "Current View", "Distance": DISTANCE,
-        "Field of View": FIELD_OF_VIEW, "Focal Point": {"X": MIDDLE_X, "Y": 0.0, "Z": MIDDLE_Z},
-        "Pitch": 0.0, "Yaw": -0.5 * math.pi, "Target Frame": "<Fixed Frame>"}
+    manager["Views"]["Current"] = CAMERA
     panel = next(p for p in view["Panels"] if p["Class"] == "rviz/Displays")
     panel["Property Tree Widget"] = {"Expanded": [f"/{shipped['Name']}1"], "Splitter Ratio": 0.5}
     view["Panels"] = [panel]
@@ -169,9 +167,6 @@ class ClothDisplay(RvizTest):
         cls.publish("bare", marked_square(-0.9, 0.1))
         cls.publish("pulled", square(0.0, -5.0))  # out of sight
 
-    def setUp(self):
-        self.scene = self.wait_for_scene()
-
     @classmethod
     def publish(cls, name, message, topic="surface", listener=None):
         key = f"/{name}/{topic}"
@@ -187,17 +182,9 @@ class ClothDisplay(RvizTest):
 
     def region(self, x, z, width=SIZE, height=SIZE, margin=0.03):
         """Where a part of the plane y = 0 is drawn, with a margin [m]."""
-        left, top, right, bottom = self.scene
-        scale = (bottom - top) / (2.0 * DISTANCE * math.tan(0.5 * FIELD_OF_VIEW))
-
-        def column(at):
-            return round(0.5 * (left + right) + scale * (at - MIDDLE_X))
-
-        def row(at):
-            return round(0.5 * (top + bottom) - scale * (at - MIDDLE_Z))
-
-        return (column(x - margin), row(z + height + margin), column(x + width + margin),
-                row(z - margin))
+        left, top = self.camera.pixel(x - margin, 0.0, z + height + margin)
+        right, bottom = self.camera.pixel(x + width + margin, 0.0, z - margin)
+        return (left, top, right, bottom)
 
     def cloth_is_at(self, picture, place):
         """Whether the shipped image is drawn there and not at the other of its two places."""

@@ -66,8 +66,8 @@ class RvizInstall(RvizTest):
         cls.node.wait(PATIENCE)
 
     def test_shows_the_textured_cloth_of_an_installed_node(self):
-        scene = self.wait_for_scene()
-        picture = self.wait_for("the shipped image", lambda p: p.shows(SHIPPED.values(), scene, least=4000))
+        picture = self.wait_for("the shipped image",
+                                lambda p: p.shows(SHIPPED.values(), self.scene, least=4000))
 
         self.keep("cloth")
         self.assertFalse(picture.has_sign(ERROR), "a status is red")

@@ -9,7 +9,7 @@ import xmlrpc.client
 import rosgraph
 import rospy
 from cloth_tearing.msg import GraspStates, SimulationStatus, TearEvent
-from cloth_tearing.srv import GetTearEvents, Release, Step, ThrowSphere
+from cloth_tearing.srv import GetTearEvents, Grasp, Release, Step, ThrowSphere
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point, Vector3
 from rosgraph_msgs.msg import Log
@@ -19,7 +19,7 @@ from std_srvs.srv import Trigger
 from rviz_window import ERROR, PATIENCE, SHIPPED, SOURCE, WARNING, RvizTest, run
 
 PULL, THROW, INTERACT = "l", "t", "i"  # keys of the tools
-TORN = (217, 13, 89)                   # colour of torn edges
+TORN, TORN_TOLERANCE = (217, 13, 89), 8  # colour of torn edges; handles have some that are like it
 # All colours of the shipped image but the light one.
 TEXTURE = (*SHIPPED.values(), (168, 34, 34), (33, 110, 80), (95, 45, 115))
 FRAME = "world"
@@ -94,32 +94,31 @@ class RvizView(RvizTest):
 
     def setUp(self):
         """A whole cloth, running and to be seen."""
+        super().setUp()
         self.addCleanup(self.pointer.release)  # whatever happens
-        self.scene = self.wait_for_scene()
         self.last_picture = None
         self.node.tell("reset")
         self.node.tell("resume")
         self.node.ask("release", Release)
         self.first_tear = 1 + max((tear.sequence for tear in self.node.tears()), default=0)
         self.wait_for("the cloth", lambda p: p.shows(SHIPPED.values(), self.scene, least=4000) and
-                      p.count(TORN, self.scene) == 0)
+                      self.torn(p) == 0)
 
-    def cloth(self, picture):
-        """The region that the whole cloth fills."""
-        boxes = [picture.box(color, self.scene) for color in SHIPPED.values()]
-        return (min(b[0] for b in boxes), min(b[1] for b in boxes),
-                max(b[2] for b in boxes), max(b[3] for b in boxes))
+    def cloth_region(self):
+        """A region that the whole cloth fills for the most part."""
+        left, top = self.camera.pixel(-0.5, 0.0, TOP)
+        right, bottom = self.camera.pixel(0.5, 0.0, BOTTOM)
+        return (left, top, right, bottom)
 
-    def place(self, across, down):
-        """A pixel of the whole cloth by its part of the width and of the height."""
-        left, top, right, bottom = self.cloth(self.screen.picture())
-        return (round(left + across * (right - left)), round(top + down * (bottom - top)))
+    def torn(self, picture):
+        """So much of torn edges is to be seen [pixels]."""
+        return picture.count(TORN, self.scene, TORN_TOLERANCE)
 
     def textured_beside_tear(self, picture, width=60):
         """Whether there are colours of the texture left and right of all torn edges."""
-        if picture.count(TORN, self.scene) < 30:
+        if self.torn(picture) < 30:
             return False
-        left, top, right, bottom = picture.box(TORN, self.scene)
+        left, top, right, bottom = picture.box(TORN, self.scene, TORN_TOLERANCE)
         return all(max(picture.count(color, beside) for color in TEXTURE) > 100 for beside in
                    ((left - width, top, left, bottom), (right, top, right + width, bottom)))
 
@@ -178,7 +177,7 @@ class RvizView(RvizTest):
     def test_02_a_pull_with_the_pointer_tears_the_cloth(self):
         self.take_tool(PULL)
         before = self.screen.picture()
-        x, y = self.place(0.5, 0.8)
+        x, y = self.camera.pixel(0.0, 0.0, 0.7)
         self.pointer.move(x, y)
 
         self.pointer.press()
@@ -186,13 +185,12 @@ class RvizView(RvizTest):
         self.wait_for("what is held", lambda p: p.changed(before, (x - 20, y - 20, x + 20, y + 20)) > 0.2)
         self.keep("held")
         at = grasp.pose.position
-        self.assertLess(abs(at.x), 0.1)
-        self.assertLess(abs(at.z - (TOP - 0.8 * (TOP - BOTTOM))), 0.1)
+        self.assertLess(abs(at.x) + abs(at.y) + abs(at.z - 0.7), 0.02)
         self.pointer.move(x, y + 150)
         self.wait_until("tears", lambda: len(self.new_tears()) >= 5)
 
         self.wait_for("a tear with the texture on both sides", lambda p: self.textured_beside_tear(p) and
-                      p.changed(before, self.cloth(before)) > 0.05)
+                      p.changed(before, self.cloth_region()) > 0.05)
         self.keep("pulled")
         self.assertEqual(self.new_tears()[0].cause, TearEvent.GRASP)
         self.assertEqual(self.new_tears()[0].cause_id, grasp.grasp_id)
@@ -202,16 +200,37 @@ class RvizView(RvizTest):
     def test_03_a_thrown_ball_goes_through_the_cloth(self):
         self.take_tool(THROW)
         before = self.screen.picture()
-        region = self.cloth(before)
 
-        self.pointer.click(*self.place(0.5, 0.6))
+        self.pointer.click(*self.camera.pixel(0.0, 0.0, 0.9))
 
         self.wait_until("a ball", lambda: self.node.status().spheres > 0)
         self.wait_until("tears", self.new_tears)
-        torn = self.wait_for("a hole", lambda p: p.changed(before, region) > 0.03 and
-                             p.count(TORN, self.scene) > 30)
+        torn = self.wait_for("a hole", lambda p: p.changed(before, self.cloth_region()) > 0.03 and
+                             self.torn(p) > 30)
         self.keep("thrown")
         self.assertEqual(self.new_tears()[0].cause, TearEvent.THROWN_SPHERE)
+
+    def test_04_an_interactive_marker_leads_its_grasp(self):
+        self.take_tool(INTERACT)
+        x, y = self.camera.pixel(-0.25, 0.0, 0.9)
+        around = (x - 12, y - 12, x + 12, y + 12)
+        before = self.screen.picture()
+        grasp_id = self.node.ask("grasp", Grasp, header=Header(frame_id=FRAME), radius=0.05,
+                                 point=Point(x=-0.25, z=0.9)).grasp_id
+        handle = self.wait_for("its handle", lambda p: p.changed(before, around) > 0.3)
+        self.pointer.move(x, y)
+        self.wait_for("the handle lights up", lambda p: p.changed(handle, around) > 0.2)
+        self.keep("handle")
+
+        self.pointer.press()
+        self.pointer.move(*self.camera.pixel(-0.25, 0.0, 0.7))
+
+        grasp, = self.wait_until("it is led", lambda: [g for g in self.node.grasps()
+                                                       if g.pose.position.z < 0.73])
+        self.assertEqual(grasp.grasp_id, grasp_id)
+        self.assertLess(abs(grasp.pose.position.x + 0.25) + abs(grasp.pose.position.z - 0.7), 0.05)
+        self.wait_for("cloth that tears", lambda p: self.torn(p) > 30)
+        self.keep("handle_led")
 
     def test_05_buttons_of_the_panel_pause_step_and_reset(self):
         self.click("pause")
@@ -250,16 +269,16 @@ class RvizView(RvizTest):
         self.keep("tuned")
 
     def test_07_the_panel_saves_and_restores_torn_and_whole_cloth(self):
+        self.take_tool(PULL)  # with it, handles are hidden
         self.node.tell("pause")
-        self.wait_for("a still picture", self.stands_still)
-        before = self.screen.picture()
+        before = self.wait_for("a still picture", self.stands_still)
         whole = self.node.ask("step", Step, steps=0).state_hash
         self.click("save")
-        self.wait_for("the answer", lambda p: p.changed(before) > 0)
+        self.wait_for("the answer", lambda p: p.without(self.scene).changed(before.without(self.scene)) > 0)
         self.node.tell("resume")
         self.tear()
         self.wait_for("a torn cloth", lambda p: p.changed(before, self.scene) > 0.01 and
-                      p.count(TORN, self.scene) > 30)
+                      self.torn(p) > 30)
         self.keep("before_restore")
         self.node.tell("pause")
 
@@ -271,11 +290,11 @@ class RvizView(RvizTest):
 
     def test_08_shows_the_new_cloth_of_a_node_that_was_killed(self):
         self.tear()
-        self.wait_for("a torn cloth", lambda p: p.count(TORN, self.scene) > 30)
+        self.wait_for("a torn cloth", lambda p: self.torn(p) > 30)
 
         self.node.end(signal.SIGKILL)
 
-        whole = self.wait_for("a whole one", lambda p: p.count(TORN, self.scene) == 0 and
+        whole = self.wait_for("a whole one", lambda p: self.torn(p) == 0 and
                               p.shows(SHIPPED.values(), self.scene, least=4000))
         self.assertFalse(whole.has_sign(ERROR), "a status is red")
 

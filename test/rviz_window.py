@@ -1,4 +1,5 @@
 """What tests with a running rviz share: a display of their own, its pictures, a pointer and keys."""
+import math
 import os
 import pathlib
 import shutil
@@ -110,6 +111,29 @@ class Picture:
         write_png(path, self.pixels)
 
 
+class Camera:
+    """Where an Orbit view of a .rviz file draws things in its region of a picture."""
+
+    def __init__(self, view, scene):
+        orbit = view["Visualization Manager"]["Views"]["Current"]
+        yaw, pitch = orbit["Yaw"], orbit["Pitch"]
+        focal = numpy.array([orbit["Focal Point"][axis] for axis in "XYZ"])
+        backwards = numpy.array([math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch),
+                                 math.sin(pitch)])
+        right = numpy.array([-math.sin(yaw), math.cos(yaw), 0.0])
+        self._axes = numpy.array([right, numpy.cross(backwards, right), backwards])
+        self._eye = focal + orbit["Distance"] * backwards
+        left, top, end, bottom = scene
+        self._middle = (0.5 * (left + end), 0.5 * (top + bottom))
+        self._scale = 0.5 * (bottom - top) / math.tan(0.5 * orbit["Field of View"])
+
+    def pixel(self, x, y, z):
+        """Of a place in the fixed frame [m]."""
+        across, up, backwards = self._axes @ (numpy.array((x, y, z)) - self._eye)
+        scale = self._scale / -backwards
+        return (round(self._middle[0] + scale * across), round(self._middle[1] - scale * up))
+
+
 class Screen:
     """An X display of its own, looked at through the file in which Xvfb keeps its pixels."""
 
@@ -201,16 +225,17 @@ class RvizTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         home = pathlib.Path(folder.name)
-        if not isinstance(view, pathlib.Path):
-            path = home / "view.rviz"
+        if isinstance(view, pathlib.Path):
+            path, cls.view = view, yaml.safe_load(view.read_text())
+        else:
+            path, cls.view = home / "view.rviz", view
             path.write_text(yaml.safe_dump(view))
-            view = path
         cls.screen = Screen(home)
         cls.addClassCleanup(cls.screen.close)
         style_sheet = home / "style.qss"
         style_sheet.write_text(style)
         cls.rviz = subprocess.Popen(
-            ["rviz", "-stylesheet", str(style_sheet), "-d", str(view), "__name:=rviz"],
+            ["rviz", "-stylesheet", str(style_sheet), "-d", str(path), "__name:=rviz"],
             env=dict(environment or os.environ, DISPLAY=cls.screen.display, LIBGL_ALWAYS_SOFTWARE="1",
                      QT_QPA_PLATFORM="xcb", HOME=folder.name, XDG_RUNTIME_DIR=folder.name))
         cls.addClassCleanup(cls._close)
@@ -242,9 +267,10 @@ class RvizTest(unittest.TestCase):
 
         return self.wait_until(what, look, patience)
 
-    def wait_for_scene(self):
-        """Waits until rviz draws; returns in which region."""
-        return self.wait_for("rviz's window", Picture.scene).scene()
+    def setUp(self):
+        """Waits until rviz draws, and notes in which region."""
+        self.scene = self.wait_for("rviz's window", Picture.scene).scene()
+        self.camera = Camera(self.view, self.scene)
 
     def keep(self, name):
         """Keeps a picture for who wants to look."""
