@@ -84,7 +84,7 @@ QString stateOf(const SimulationStatus& status)
 {
   if (!status.fault.empty())
   {
-    return "paused by a fault";
+    return "fault";
   }
   if (status.paused)
   {
@@ -101,7 +101,7 @@ ControlPanel::ControlPanel(QWidget* parent) : rviz::Panel(parent)
 {
   auto* content = new QWidget;
   auto* rows = new QVBoxLayout(content);
-  rows->setContentsMargins(6, 6, 6, 6);
+  rows->setContentsMargins(4, 4, 4, 4);
   rows->addLayout(makeNodeRow());
   rows->addWidget(makeControls());
   fault_ = makeText("fault");
@@ -328,15 +328,15 @@ void ControlPanel::save(rviz::Config config) const
 
 void ControlPanel::choose(const QString& node)
 {
-  std::string name;
+  std::string name = watch_.node();
   try
   {
-    name = ros::names::resolve(node.trimmed().toStdString());
+    const QString text = node.trimmed();
+    name = text.isEmpty() || text == "/" ? name : ros::names::resolve(text.toStdString());
   }
   catch (const ros::InvalidNameException& error)
   {
     complain(error.what());
-    return;
   }
   nodes_->setEditText(QString::fromStdString(name));
   if (name == watch_.node())

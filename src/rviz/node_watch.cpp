@@ -49,7 +49,8 @@ public:
   {
     Seen seen;
     ros::master::V_TopicInfo topics;
-    seen.master = ros::master::getTopics(topics);
+    // Without a master, all but check() waits until there is one.
+    seen.master = ros::master::check() && ros::master::getTopics(topics);
     if (seen.master)
     {
       listenTo(node);

@@ -33,7 +33,8 @@ QString chunkOf(Strain strain)
 
 QString seconds(double time)
 {
-  return QString::number(time, 'f', 2) + " s";
+  const int decimals = time < 1e3 ? 2 : time < 1e5 ? 1 : 0;  // the column is narrow
+  return QString::number(time, 'f', decimals) + " s";
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ StatusView::StatusView() : table_(new QGridLayout(this)), utilisation_(new QProg
 {
   table_->setContentsMargins(0, 0, 0, 0);
   table_->setVerticalSpacing(2);
-  table_->setHorizontalSpacing(8);
+  table_->setHorizontalSpacing(5);
   table_->setColumnStretch(1, 1);
   table_->setColumnStretch(3, 1);
   time_ = add("Time", "time", "Simulation time; rises for the node's life.");
@@ -60,7 +61,7 @@ StatusView::StatusView() : table_(new QGridLayout(this)), utilisation_(new QProg
   epoch_ = add("Epoch", "epoch", "Rises with each reset and restored state.");
   basic_ = add("Basic tears", "basic_tears", "Springs of sound cloth that were split.");
   weak_point_ =
-      add("Weak points", "weak_point_tears", "Tears that ran on from where one had ended.");
+      add("Weak point", "weak_point_tears", "Tears that ran on from where one had ended.");
   one_point_ = add("One-point", "one_point_tears", "Connections by a single particle that tore.");
   released_ = add("Released", "released_springs", "Springs that could be split no further.");
   pieces_ = add("Pieces", "pieces", "Of cloth that hang together, those at rest included.");
