@@ -17,11 +17,9 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QSignalBlocker>
 #include <QSpinBox>
 #include <QStyle>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "cloth_tearing/rviz/status_view.h"
