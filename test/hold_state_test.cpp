@@ -228,11 +228,11 @@ TEST_F(AHold, TellsThatTheSimulationStands)
 {
   take();
   state_.hear(status(true, "wall"), 10.1);
-  EXPECT_TRUE(tells("when it is resumed"));
+  EXPECT_TRUE(tells("PAUSED"));
   state_.hear(status(false, "wall"), 10.2);
-  EXPECT_FALSE(tells("when it is resumed"));
+  EXPECT_FALSE(tells("PAUSED"));
   state_.hear(status(false, "step"), 10.3);
-  EXPECT_TRUE(tells("it only moves by steps"));
+  EXPECT_TRUE(tells("only moves by steps"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "cloth_tearing/GraspTargets.h"
 
@@ -54,17 +55,27 @@ ClothHold::~ClothHold()
 
 void ClothHold::take(const std::string& frame, const cloth::Vec3d& point, double radius)
 {
-  if (state_.phase() != HoldState::Phase::IDLE)
+  if (busy())
   {
     return;
   }
-  listen();
   frame_ = frame;
   target_.reset();
   Grasp::Request request;
   request.header.frame_id = frame;
   request.point = toPoint(point);
   request.radius = radius;
+  if (state_.phase() == HoldState::Phase::ASKED)
+  {
+    next_ = request;
+    return;
+  }
+  ask(request);
+}
+
+void ClothHold::ask(const Grasp::Request& request)
+{
+  listen();
   state_.ask();
   caller_.call<Grasp>(node_.resolveName("grasp"), request,
                       [this](const auto& answer)
@@ -73,12 +84,16 @@ void ClothHold::take(const std::string& frame, const cloth::Vec3d& point, double
                         {
                           release(*end);
                         }
+                        if (const auto next = std::exchange(next_, std::nullopt))
+                        {
+                          ask(*next);
+                        }
                       });
 }
 
 void ClothHold::letGo(bool pin)
 {
-  sendTarget();
+  next_.reset();
   if (const auto end = state_.letGo(pin))
   {
     release(*end);
@@ -127,10 +142,11 @@ void ClothHold::update()
   found_ = there;
 }
 
-/// A message that nobody gets is not sent.
+/// A message that nobody gets is not sent, and a node that is silent gets one when it is back.
 void ClothHold::sendTarget()
 {
-  if (!target_ || state_.phase() != HoldState::Phase::HELD || targets_.getNumSubscribers() == 0)
+  if (!target_ || state_.phase() != HoldState::Phase::HELD || state_.silent(now()) ||
+      targets_.getNumSubscribers() == 0)
   {
     return;
   }

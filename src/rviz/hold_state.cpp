@@ -133,8 +133,8 @@ void HoldState::hear(const GraspEvents& events)
 void HoldState::hear(const SimulationStatus& status, double now)
 {
   last_heard_ = now;
-  stands_ = status.pace == "step" ? "it only moves by steps"
-            : status.paused       ? "it moves when it is resumed"
+  stands_ = status.pace == "step" ? "It stands, and only moves by steps"
+            : status.paused       ? "It is PAUSED"
                                   : "";
 }
 
@@ -144,6 +144,11 @@ void HoldState::loseNode()
   {
     end(node_ + " is gone");
   }
+}
+
+bool HoldState::silent(double now) const
+{
+  return now > last_heard_ + SILENCE;
 }
 
 std::string HoldState::words(double now) const
@@ -168,11 +173,11 @@ std::string HoldState::holding() const
 /// Why the cloth may not move.
 std::string HoldState::hindrance(double now) const
 {
-  if (now > last_heard_ + SILENCE)
+  if (silent(now))
   {
     return ". SILENT for " + std::to_string(static_cast<int>(now - last_heard_)) + " s";
   }
-  return stands_.empty() ? std::string() : ". The simulation stands: " + stands_;
+  return stands_.empty() ? std::string() : ". " + stands_;
 }
 
 }  // namespace cloth_tearing

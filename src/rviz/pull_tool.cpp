@@ -30,8 +30,7 @@ const char* const KEYS_IDLE =
     "<b>Left-Click on cloth:</b> Pull it. <b>Wheel on cloth:</b> Radius "
     "(%1 m). <b>Elsewhere, and Middle, Right:</b> Camera.";
 const char* const KEYS_HOLDING =
-    "<b>Shift:</b> Away/towards. <b>Release:</b> Let go, with "
-    "<b>Ctrl:</b> Pin. <b>Middle, Right:</b> Camera.";
+    "<b>Shift:</b> Away/towards. <b>Release:</b> Let go, with <b>Ctrl:</b> Pin.";
 
 }  // namespace
 
@@ -69,6 +68,7 @@ void PullTool::deactivate()
   }
   panel_.clear();
   show({});
+  setStatus("");
 }
 
 // -- mouse ---------------------------------------------------------------------------------------
@@ -77,7 +77,6 @@ int PullTool::processMouseEvent(rviz::ViewportMouseEvent& event)
 {
   panel_ = event.panel;
   buttons_ = event.buttons_down != Qt::NoButton;
-  shift_ = event.shift();
   if (pressed_)
   {
     lead(event);
@@ -129,10 +128,17 @@ bool PullTool::take(const rviz::ViewportMouseEvent& event)
 
 void PullTool::lead(const rviz::ViewportMouseEvent& event)
 {
+  const View view = viewOf(*event.viewport);
+  const cloth::Vec2d place = placeIn(*event.viewport, event.x, event.y);
+  if ((event.buttons_down & ~Qt::LeftButton) != Qt::NoButton)  // the pointer moves the camera
+  {
+    drag_.begin(view, place, drag_.point());
+    return;
+  }
   const cloth::Vec3d before = drag_.point();
-  const ViewDrag::Way way = shift_ ? ViewDrag::Way::ALONG : ViewDrag::Way::ACROSS;
-  const cloth::Vec3d& now =
-      drag_.move(viewOf(*event.viewport), placeIn(*event.viewport, event.x, event.y), way);
+  const bool shift = (event.modifiers & Qt::ShiftModifier) != 0;
+  const ViewDrag::Way way = shift ? ViewDrag::Way::ALONG : ViewDrag::Way::ACROSS;
+  const cloth::Vec3d& now = drag_.move(view, place, way);
   if (now != before)
   {
     hold_->lead(now);

@@ -28,8 +28,8 @@ public:
   ClothHold(const ClothHold&) = delete;
   ClothHold& operator=(const ClothHold&) = delete;
 
-  /// Asks for a grasp of what lies around a point [m]. Does nothing as long as the last one was not
-  /// answered.
+  /// Asks for a grasp of what lies around a point [m]; as soon as the last one, that was let go, is
+  /// answered. Does nothing while one is held.
   void take(const std::string& frame, const cloth::Vec3d& point, double radius);
 
   /// The grasp is to be at a point of that frame [m].
@@ -45,19 +45,24 @@ public:
   void rest();
 
   /// Whether something is held or asked for that was not let go.
-  bool busy() const { return state_.phase() != HoldState::Phase::IDLE && !state_.letsGo(); }
+  bool busy() const
+  {
+    return next_ || (state_.phase() != HoldState::Phase::IDLE && !state_.letsGo());
+  }
 
   /// What to tell, without mark-up; empty = nothing.
   std::string words() const;
 
 private:
   void listen();
+  void ask(const Grasp::Request& request);
   void release(const Release::Request& request);
   void sendTarget();
 
   ros::NodeHandle node_;  ///< with the cloth's node for namespace
   HoldState state_;
   std::string frame_;
+  std::optional<Grasp::Request> next_;  ///< to be asked for when the last one is answered
   std::optional<cloth::Vec3d> target_;  ///< that was not sent yet
   ros::Publisher targets_;
   ros::Subscriber states_;

@@ -57,6 +57,9 @@ public:
   /// Nobody publishes any more.
   void loseNode();
 
+  /// Nothing was heard of the node for a while.
+  bool silent(double now) const;
+
   /// What to tell, without mark-up: what is held and how, or how it ended.
   std::string words(double now) const;
 
@@ -74,7 +77,7 @@ private:
   bool seen_ = false;        ///< among the node's grasps
   double since_ = 0.0;       ///< of the answer
   double last_heard_ = 0.0;  ///< of the node
-  std::string stands_;       ///< when the simulation will move; empty = it does
+  std::string stands_;       ///< why the cloth does not move; empty = it does
   bool ended_alone_ = false;
   std::string note_;  ///< how the last one ended; empty = there was none yet
 };

@@ -76,7 +76,6 @@ private:
   int x_ = 0;
   int y_ = 0;
   bool buttons_ = false;  ///< any of them is down
-  bool shift_ = false;
   std::unique_ptr<rviz::Shape> ball_;
   Ball shown_;
 };
