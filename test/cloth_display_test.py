@@ -255,13 +255,15 @@ class ClothDisplay(RvizTest):
         self.assertFalse(picture.has_sign(ERROR))
 
     def test_06_colours_by_strain_between_the_ends_of_the_range(self):
-        where = self.region(0.3, 0.1)
+        ends = {LOW: 0.3, MIDDLE: 0.3 + 0.5 * SIZE, HIGH: 0.3 + SIZE}  # where on x they have to be [m]
+        strips = {color: self.region(x - 0.01, 0.1, width=0.02, margin=0.0) for color, x in ends.items()}
 
-        picture = self.wait_for("blue, white and red",
-                                lambda p: p.shows((LOW, MIDDLE, HIGH), where, least=150))
+        def fill(picture):
+            """Half of the strip for the colours at the borders."""
+            return all(picture.count(color, (left, top, right, bottom)) > 0.4 * (right - left) * (bottom - top)
+                       for color, (left, top, right, bottom) in strips.items())
 
-        self.assertLess(picture.middle(LOW, where)[0], picture.middle(MIDDLE, where)[0])
-        self.assertLess(picture.middle(MIDDLE, where)[0], picture.middle(HIGH, where)[0])
+        self.wait_for("blue, white and red from left to right", fill)
 
     def test_07_draws_the_wireframe_over_the_cloth(self):
         where = self.region(-0.3, 0.1)
