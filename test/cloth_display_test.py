@@ -7,7 +7,9 @@ import tempfile
 import rospy
 import yaml
 from cloth_tearing.msg import ClothSurface, GraspState, GraspStates, HeldParticle
+from geometry_msgs.msg import TransformStamped
 from rosgraph_msgs.msg import Log
+from tf2_msgs.msg import TFMessage
 
 from rviz_window import ERROR, HEIGHT, SHIPPED, SOURCE, WARNING, WIDTH, RvizTest, run, \
     write_png
@@ -332,6 +334,34 @@ class ClothDisplay(RvizTest):
 
         self.keep("other_topic")
         self.assertFalse(picture.has_sign(ERROR))
+
+    def test_12_goes_with_a_frame_that_becomes_known_and_moves_though_no_message_comes(self):
+        self.publish("second", square(-0.5, 0.2, frame="cart"))
+        self.wait_for("a red status and no cloth", lambda p: p.has_sign(ERROR) and
+                      p.count(QUARTERS["magenta"], self.scene) == 0)
+        frames = rospy.Publisher("/tf", TFMessage, queue_size=10)
+
+        def middle(picture):
+            found = picture.count(QUARTERS["magenta"], self.scene) > 500
+            return picture.middle(QUARTERS["magenta"], self.scene)[0] if found else None
+
+        def drive(x):
+            transform = TransformStamped()
+            transform.header.frame_id, transform.child_frame_id = "world", "cart"
+            transform.header.stamp = rospy.Time.now()
+            transform.transform.translation.x, transform.transform.translation.z = x, 0.9
+            transform.transform.rotation.w = 1.0
+            frames.publish(TFMessage([transform]))
+
+        def stands(picture, x):
+            drive(x)  # again: rviz may not have listened yet
+            left = self.camera.pixel(x - 0.5, 0.0, 1.35)[0]
+            right = self.camera.pixel(x - 0.25, 0.0, 1.35)[0]
+            return middle(picture) is not None and abs(middle(picture) - 0.5 * (left + right)) < 12
+
+        self.wait_for("the cloth on the cart", lambda p: stands(p, 0.0) and not p.has_sign(ERROR))
+
+        self.wait_for("the cloth where the cart has gone", lambda p: stands(p, 0.4))
 
 
 if __name__ == "__main__":

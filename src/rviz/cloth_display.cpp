@@ -10,6 +10,7 @@
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
+#include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
 
 #include <algorithm>
@@ -28,6 +29,7 @@ using rviz::StatusProperty;
 namespace
 {
 
+constexpr std::uint32_t QUEUE = 2;    // of messages, of which only the last is drawn
 constexpr float LEAST_RANGE = 1e-4F;  // between the ends of the strain range [-]
 constexpr float LEAST_SIZE = 1e-5F;   // of lines and points [m]
 constexpr float MOST_LENGTH = 1e9F;   // of a vector from outside
@@ -54,6 +56,9 @@ cloth::Pose toPose(const Ogre::Vector3& position, const Ogre::Quaternion& rotati
 
 ClothDisplay::ClothDisplay()
 {
+  const QString datatype = QString::fromStdString(ros::message_traits::datatype<ClothSurface>());
+  topic_ = new rviz::RosTopicProperty("Topic", "", datatype, datatype + " topic to subscribe to.",
+                                      this, SLOT(updateTopic()));
   addColoring();
   addParts();
   addForces();
@@ -211,50 +216,79 @@ void ClothDisplay::updateForces()
 
 void ClothDisplay::onInitialize()
 {
-  MFDClass::onInitialize();
   visual_ = std::make_unique<ClothVisual>(context_->getSceneManager(), scene_node_);
   arrows_ = std::make_unique<ForceArrows>(context_->getSceneManager(), scene_node_);
   updateStyle();
   updateImage();
 }
 
+void ClothDisplay::onEnable()
+{
+  subscribe();
+}
+
+void ClothDisplay::onDisable()
+{
+  reset();
+}
+
+void ClothDisplay::setTopic(const QString& topic, const QString& /*datatype*/)
+{
+  topic_->setString(topic);
+}
+
+void ClothDisplay::updateTopic()
+{
+  reset();
+}
+
 void ClothDisplay::subscribe()
 {
-  MFDClass::subscribe();
   source_ = Source::SUBSCRIBED;
-  const std::string node = clothNode();
-  if (isEnabled() && !node.empty())
+  messages_ = 0;
+  const std::string topic = topic_->getTopicStd();
+  if (!isEnabled() || topic.empty())
   {
-    grasp_subscriber_ = update_nh_.subscribe(ros::names::append(node, "grasp_states"), 2,
+    return;
+  }
+  try
+  {
+    surface_subscriber_ = update_nh_.subscribe(topic, QUEUE, &ClothDisplay::takeSurface, this);
+    grasp_subscriber_ = update_nh_.subscribe(ros::names::append(clothNode(), "grasp_states"), QUEUE,
                                              &ClothDisplay::takeGrasps, this);
+  }
+  catch (const ros::Exception& error)
+  {
+    setStatus(StatusProperty::Error, "Topic", QString("Error subscribing: ") + error.what());
   }
 }
 
 std::string ClothDisplay::clothNode() const
 {
-  const std::string topic = topic_property_->getTopicStd();
+  const std::string topic = topic_->getTopicStd();
   try
   {
     return topic.empty() ? topic : ros::names::parentNamespace(update_nh_.resolveName(topic));
   }
   catch (const ros::InvalidNameException&)
   {
-    return {};  // the base class tells so
+    return {};  // subscribe() tells so
   }
 }
 
 void ClothDisplay::unsubscribe()
 {
   grasp_subscriber_.shutdown();
-  MFDClass::unsubscribe();
+  surface_subscriber_.shutdown();
 }
 
 /// Subscribes anew: what is latched comes again, and a cloth at rest is not lost.
 void ClothDisplay::reset()
 {
   unsubscribe();
-  MFDClass::reset();
+  rviz::Display::reset();
   surface_.reset();
+  place_problem_.reset();
   grasps_.reset();
   problem_.clear();
   if (visual_)
@@ -266,8 +300,9 @@ void ClothDisplay::reset()
   subscribe();
 }
 
-void ClothDisplay::processMessage(const ClothSurface::ConstPtr& message)
+void ClothDisplay::takeSurface(const ClothSurface::ConstPtr& message)
 {
+  ++messages_;
   try
   {
     new_triangles_ |= mesh_.take(*message);
@@ -285,7 +320,6 @@ void ClothDisplay::processMessage(const ClothSurface::ConstPtr& message)
                 .arg(message->triangles.size() / 3)
                 .arg(message->positions.size() / 3)
                 .arg(message->torn_edges.size() / 2));
-  place(*message);
 }
 
 void ClothDisplay::refuse(const std::string& reason)
@@ -298,28 +332,42 @@ void ClothDisplay::refuse(const std::string& reason)
   }
 }
 
-/// A cloth whose place is not known is not shown at all.
-void ClothDisplay::place(const ClothSurface& message)
+/// Puts the cloth where its frame is now. One whose place is not known is not shown at all.
+void ClothDisplay::place()
 {
-  geometry_msgs::Pose origin;
-  origin.position = message.origin;
-  origin.orientation.w = 1.0;
+  const std::string& frame = surface_->header.frame_id;
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
-  placed_ = context_->getFrameManager()->transform(message.header, origin, position, orientation);
-  if (placed_)
+  const bool placed =
+      context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation);
+  std::string problem;
+  if (placed)
   {
+    const geometry_msgs::Point& origin = surface_->origin;
+    position += orientation * Ogre::Vector3(origin.x, origin.y, origin.z);
+    const cloth::Pose before = std::exchange(pose_, toPose(position, orientation));
+    drawn_ &=
+        pose_.position == before.position && pose_.rotation.coeffs() == before.rotation.coeffs();
     visual_->setPose(position, orientation);
-    pose_ = toPose(position, orientation);
-    setStatus(StatusProperty::Ok, "Transform", "OK");
   }
-  else
+  else if (!context_->getFrameManager()->transformHasProblems(frame, ros::Time(), problem))
   {
-    std::string problem;
-    context_->getFrameManager()->transformHasProblems(message.header.frame_id, message.header.stamp,
-                                                      problem);
-    setStatusStd(StatusProperty::Error, "Transform", problem);
+    problem = "no transform from frame [" + frame + "]";
   }
+  drawn_ &= placed == placed_;
+  placed_ = placed;
+  tellPlace(problem);
+}
+
+void ClothDisplay::tellPlace(const std::string& problem)
+{
+  if (place_problem_ == problem)
+  {
+    return;
+  }
+  place_problem_ = problem;
+  setStatusStd(problem.empty() ? StatusProperty::Ok : StatusProperty::Error, "Transform",
+               problem.empty() ? "OK" : problem);
 }
 
 void ClothDisplay::takeGrasps(const GraspStates::ConstPtr& message)
@@ -351,6 +399,10 @@ double ClothDisplay::distanceFrom(const cloth::Vec3d& point) const
 void ClothDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
 {
   watchSource();
+  if (surface_)
+  {
+    place();
+  }
   if (drawn_)
   {
     return;
@@ -372,11 +424,11 @@ void ClothDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
 void ClothDisplay::watchSource()
 {
   Source source = Source::SENDING;
-  if (messages_received_ == 0)
+  if (messages_ == 0)
   {
     source = Source::SILENT;
   }
-  else if (sub_.getSubscriber().getNumPublishers() == 0)
+  else if (surface_subscriber_.getNumPublishers() == 0)
   {
     source = Source::GONE;
   }
@@ -385,7 +437,7 @@ void ClothDisplay::watchSource()
     return;
   }
   source_ = source;
-  const QString count = QString::number(messages_received_);
+  const QString count = QString::number(messages_);
   switch (source)
   {
     case Source::SILENT:

@@ -3,8 +3,9 @@
 
 #ifndef Q_MOC_RUN
 #include <ros/subscriber.h>
-#include <rviz/message_filter_display.h>
+#include <rviz/display.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ class BoolProperty;
 class ColorProperty;
 class EnumProperty;
 class FloatProperty;
+class RosTopicProperty;
 class StringProperty;
 }  // namespace rviz
 
@@ -33,7 +35,11 @@ namespace cloth_tearing
 /// Draws a cloth with its texture or the colours of its strain, what is torn, weak and held, and
 /// the forces on grippers, which it reads from grasp_states beside the surface's topic. A message
 /// that makes no sense turns the status red and changes nothing.
-class ClothDisplay : public rviz::MessageFilterDisplay<ClothSurface>
+///
+/// The cloth is where its frame is now, also when that moves, or becomes known, after the last
+/// message: a cloth at rest sends none. (So no rviz::MessageFilterDisplay, which drops a message
+/// whose frame is not known yet.)
+class ClothDisplay : public rviz::Display
 {
   Q_OBJECT
 public:
@@ -41,6 +47,7 @@ public:
   ~ClothDisplay() override;
 
   void reset() override;
+  void setTopic(const QString& topic, const QString& datatype) override;
   void update(float wall_dt, float ros_dt) override;
 
   /// The namespace of what sends, after remappings: that of its services. Empty without a topic.
@@ -55,10 +62,11 @@ public:
 
 protected:
   void onInitialize() override;
-  void subscribe() override;
-  void unsubscribe() override;
+  void onEnable() override;
+  void onDisable() override;
 
 private Q_SLOTS:
+  void updateTopic();
   void updateStyle();
   void updateImage();
   void updateForces();
@@ -91,14 +99,18 @@ private:
                              float size, const QString& description);
   ClothStyle style() const;
 
-  void processMessage(const ClothSurface::ConstPtr& message) override;
-  void place(const ClothSurface& message);
+  void subscribe();
+  void unsubscribe();
+  void takeSurface(const ClothSurface::ConstPtr& message);
+  void place();
+  void tellPlace(const std::string& problem);
   bool shown() const { return isEnabled() && surface_ && placed_; }
   void refuse(const std::string& reason);
   void watchSource();
   void takeGrasps(const GraspStates::ConstPtr& message);
   std::vector<ForceArrows::Force> forcesInFixedFrame() const;
 
+  rviz::RosTopicProperty* topic_;
   rviz::EnumProperty* coloring_;
   rviz::StringProperty* image_;
   rviz::BoolProperty* smooth_image_;
@@ -119,14 +131,17 @@ private:
   std::unique_ptr<ClothVisual> visual_;
   std::unique_ptr<ForceArrows> arrows_;
   SurfaceMesh mesh_;
-  ClothSurface::ConstPtr surface_;  ///< that mesh_ has taken; none = nothing is shown
-  bool new_triangles_ = true;       ///< since the last drawing
-  bool placed_ = false;             ///< its frame is known
-  cloth::Pose pose_;                ///< of the message's origin, in the fixed frame
+  ClothSurface::ConstPtr surface_;            ///< that mesh_ has taken; none = nothing is shown
+  bool new_triangles_ = true;                 ///< since the last drawing
+  bool placed_ = false;                       ///< its frame is known
+  cloth::Pose pose_;                          ///< of the message's origin, in the fixed frame
+  std::optional<std::string> place_problem_;  ///< why not; empty = it is; none = not told yet
   bool drawn_ = true;
   std::string image_problem_;  ///< of the texture's image; empty = none
   std::string problem_;        ///< of the last message; empty = none
 
+  ros::Subscriber surface_subscriber_;
+  std::uint64_t messages_ = 0;  ///< received since subscribing
   ros::Subscriber grasp_subscriber_;
   GraspStates::ConstPtr grasps_;
   Source source_ = Source::SUBSCRIBED;
