@@ -18,6 +18,7 @@ sys.path.insert(0, str(SOURCE / "test"))
 from rviz_window import BACKGROUND, HEIGHT, SHIPPED, WIDTH, Pointer, Screen  # noqa: E402
 
 PATIENCE = 60.0       # for anything that has to happen [s]
+REST = 2.0            # after which a picture that is still the same is taken for that of a cloth at rest [s]
 STEPS = 40            # of the cloth from frame to frame
 SETTLE = 2000         # steps before the first frame
 KEPT = (640, 480)     # size of a frame [pixels]
@@ -126,11 +127,15 @@ class Film:
         self.pointer.focus("RViz")
         self.pointer.move(*START)
         self.pointer.key("l")
-        self.steady()
+        self.last = self.steady().pixels
 
     def shoot(self, at, pressed):
         """Keeps the picture, with the pointer that the display does not show in its pixels."""
+        deadline = time.monotonic() + REST
+        while time.monotonic() < deadline and (self.screen.picture().pixels == self.last).all():
+            time.sleep(0.02)
         picture = self.steady()
+        self.last = picture.pixels
         left = (WIDTH - CROP[0]) // 2
         pixels = picture.pixels[:CROP[1], left:left + CROP[0]]
         head = f"P6 {CROP[0]} {CROP[1]} 255\n".encode()
