@@ -116,6 +116,41 @@ TEST(Surface, LeavesOutSpringsThatWereReleased)
   }
 }
 
+TEST(Surface, LeavesOutTrianglesThatLostTwoOfTheirSprings)
+{
+  Cloth cloth = makeCloth(sheet(1.0, 1.0, 4, 4), {}, cotton(), RestShapeSource::IMPORTED, 0.0);
+  const Triangle rag = cloth.mesh.triangle({ 8 });  // amidst others
+  cloth.springs.release(rag.springs[0]);
+  ASSERT_EQ(makeSurface(cloth).triangles.size(), 18u) << "one spring keeps it in shape";
+  cloth.springs.release(rag.springs[1]);
+  const auto indexOf = [](ParticleId p) { return p.index; };
+  std::array<int, 3> corners{};
+  std::transform(rag.particles.begin(), rag.particles.end(), corners.begin(), indexOf);
+
+  const Surface surface = makeSurface(cloth);
+
+  EXPECT_EQ(surface.triangles.size(), 17u);
+  for (const SurfaceTriangle& t : surface.triangles)
+  {
+    EXPECT_NE(t.particles, corners);
+  }
+  EXPECT_EQ(surface.torn_edges.size(), 3u) << "the cloth around it ends there";
+}
+
+TEST(Surface, HasNoTornEdgeOfATriangleThatItLeavesOut)
+{
+  Cloth cloth = makeCloth(sheet(1.0, 1.0, 4, 4), {}, cotton(), RestShapeSource::IMPORTED, 0.0);
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    cloth.springs.release({ i });
+  }
+
+  const Surface surface = makeSurface(cloth);
+
+  EXPECT_TRUE(surface.triangles.empty());
+  EXPECT_TRUE(surface.torn_edges.empty());
+}
+
 /// A hanging sheet with a ball thrown through it.
 Simulation torn()
 {

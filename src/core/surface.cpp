@@ -9,6 +9,19 @@ namespace cloth
 namespace
 {
 
+/// Two sides of a triangle that carry nothing any more may be of any length: what is left of it
+/// hangs on the third.
+bool isRag(const Cloth& cloth, const Triangle& t)
+{
+  const auto carries = [&cloth](SpringId s) { return cloth.springs.structural[s.index].active(); };
+  return std::count_if(t.springs.begin(), t.springs.end(), carries) < 2;
+}
+
+bool isDrawn(const Cloth& cloth, const Triangle& t)
+{
+  return !cloth.damage.at_rest[t.particles[0].index] && !isRag(cloth, t);
+}
+
 void addTriangles(const Cloth& cloth, Surface& surface)
 {
   surface.normal.assign(cloth.mesh.particleCount(), Vec3::Zero());
@@ -18,7 +31,7 @@ void addTriangles(const Cloth& cloth, Surface& surface)
     const Triangle& t = cloth.mesh.triangle({ i });
     const std::array<int, 3> p = { t.particles[0].index, t.particles[1].index,
                                    t.particles[2].index };
-    if (cloth.damage.at_rest[p[0]])
+    if (!isDrawn(cloth, t))
     {
       continue;
     }
@@ -35,6 +48,16 @@ void addTriangles(const Cloth& cloth, Surface& surface)
     const Real length = std::sqrt(normal.squaredNorm());
     normal = length > 0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
   }
+}
+
+/// Whether cloth ends at a spring that is no part of its outline.
+bool isTornEdge(const Cloth& cloth, SpringId s)
+{
+  const auto& triangles = cloth.mesh.spring(s).triangles;
+  const auto drawn = [&cloth](TriangleId t)
+  { return t.valid() && isDrawn(cloth, cloth.mesh.triangle(t)); };
+  return !cloth.damage.outer[s.index] &&
+         std::count_if(triangles.begin(), triangles.end(), drawn) == 1;
 }
 
 void addSprings(const Cloth& cloth, Surface& surface)
@@ -57,7 +80,7 @@ void addSprings(const Cloth& cloth, Surface& surface)
       surface.strain[ends[0]] = std::max(surface.strain[ends[0]], strain);
       surface.strain[ends[1]] = std::max(surface.strain[ends[1]], strain);
     }
-    if (spring.border() && !cloth.damage.outer[i])
+    if (isTornEdge(cloth, s))
     {
       surface.torn_edges.push_back(ends);
     }
