@@ -38,6 +38,8 @@ const char* const DEFAULT_NODE = "/cloth";
 const char* const PROBLEM_STYLE = "color: #b00020;";
 constexpr int MOST_STEPS = 1000000;
 constexpr int ANSWER_LINES = 3;
+constexpr int LONGEST_NAME = 64;  // of a state, as the node takes it
+constexpr int LONGEST_PART = 16;  // of a word that may not be wrapped
 constexpr double SLOWEST = 0.01;  // of the slider; the digits go further
 constexpr double FASTEST = 10.0;
 constexpr double LEAST_STRAIN = 0.01;
@@ -60,11 +62,33 @@ QLabel* labelFor(QWidget* widget, const QString& text, const QString& meaning)
   return label;
 }
 
+/// May be wrapped within paths and long names too.
+QString breakable(const QString& text)
+{
+  QString pieces;
+  int part = 0;
+  for (const QChar c : text)
+  {
+    pieces += c;
+    part = c.isSpace() ? 0 : part + 1;
+    if (part >= LONGEST_PART || QString("_/.-").contains(c))
+    {
+      pieces += QChar(0x200B);  // a space without width
+      part = 0;
+    }
+  }
+  return pieces;
+}
+
+/// As wide as there is room, whatever it says.
 QLabel* makeText(const QString& name)
 {
   auto* text = new QLabel;
   text->setObjectName(name);
   text->setWordWrap(true);
+  QSizePolicy policy = text->sizePolicy();
+  policy.setHorizontalPolicy(QSizePolicy::Ignored);
+  text->setSizePolicy(policy);
   text->setTextFormat(Qt::PlainText);
   text->setTextInteractionFlags(Qt::TextSelectableByMouse);
   return text;
@@ -258,6 +282,7 @@ QLayout* ControlPanel::makeStates()
 {
   state_name_ = new QLineEdit("state");
   state_name_->setObjectName("state_name");
+  state_name_->setMaxLength(LONGEST_NAME);
   state_name_->setToolTip("Letters, digits, '_', '-' and '.'");
   in_file_ = new QCheckBox("in a fil&e");
   in_file_->setObjectName("in_file");
@@ -446,7 +471,7 @@ void ControlPanel::onStatus(const SimulationStatus& status)
   status_->setStatus(status);
   state_->setText(stateOf(status));
   state_->setStyleSheet(status.fault.empty() ? "" : PROBLEM_STYLE);
-  fault_->setText(QString::fromStdString(status.fault));
+  fault_->setText(breakable(QString::fromStdString(status.fault)));
   fault_->setVisible(!status.fault.empty());
   pause_->setText(paused_ ? "Res&ume" : "Pa&use");
   pause_->setIcon(style()->standardIcon(paused_ ? QStyle::SP_MediaPlay : QStyle::SP_MediaPause));
@@ -495,13 +520,13 @@ void ControlPanel::onSilence(const QString& why)
 void ControlPanel::say(const QString& text)
 {
   answer_->setStyleSheet("");
-  answer_->setText(text);
+  answer_->setText(breakable(text));
 }
 
 void ControlPanel::complain(const QString& problem)
 {
   answer_->setStyleSheet(PROBLEM_STYLE);
-  answer_->setText(problem);
+  answer_->setText(breakable(problem));
 }
 
 }  // namespace cloth_tearing
