@@ -54,7 +54,10 @@ TEST(Checks, LetNothingPassThatIsNotFinite)
       EXPECT_EQ(judged(value, range).size(), 1u) << value;
     }
   }
-  EXPECT_EQ(judged(NOT_A_NUMBER, Range()), Sentences{ "size [m] is nan, must be finite" });
+  for (double value : { NOT_A_NUMBER, -NOT_A_NUMBER })
+  {
+    EXPECT_EQ(judged(value, Range()), Sentences{ "size [m] is nan, must be finite" });
+  }
 }
 
 TEST(Checks, NameTheCoordinateThatIsWrong)

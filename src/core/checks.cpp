@@ -30,6 +30,10 @@ std::string limits(const Range& range)
 
 std::string text(double value)
 {
+  if (std::isnan(value))
+  {
+    return "nan";  // of either sign
+  }
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.6g", value);
   for (char& c : buffer)
