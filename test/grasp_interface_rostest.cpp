@@ -458,6 +458,71 @@ TEST_F(GraspInterface, AStreamedTargetIsReachedInTheTimeSinceTheLast)
   EXPECT_FALSE(stateOf(cloth_, grasp).moving);
 }
 
+TEST_F(GraspInterface, AGraspOfWhichNobodySpeaksAnyMoreLetsGo)
+{
+  const std::uint64_t lasting = cloth_.grasp(at(-0.1, BOTTOM), 0.03).grasp_id;
+  const ros::WallTime begin = ros::WallTime::now();
+  const std::uint64_t left = cloth_.grasp(at(0.1, BOTTOM), 0.03, 0.0, "", 0.3).grasp_id;
+
+  ASSERT_TRUE(isSoon([&] { return states(cloth_).grasps.size() == 1; }));
+
+  EXPECT_GE((ros::WallTime::now() - begin).toSec(), 0.3);
+  EXPECT_EQ(states(cloth_).grasps[0].grasp_id, lasting);
+  const std::vector<GraspEvent> released = events(cloth_, GraspEvent::RELEASED);
+  ASSERT_EQ(released.size(), 1u);
+  EXPECT_EQ(released[0].grasp_id, left);
+  EXPECT_EQ(released[0].reason, "nobody has spoken for it for its keep_alive of 0.3 s");
+}
+
+TEST_F(GraspInterface, APausedClothIsLetGoToo)
+{
+  const ClothClient running("/running", "world", PATIENCE);
+  running.reset();
+  running.pause();
+  const std::uint64_t step = running.step(0).step;
+  const std::uint64_t left = running.grasp(at(0.1, BOTTOM), 0.03, 0.0, "", 0.3).grasp_id;
+
+  ASSERT_TRUE(isSoon([&] { return states(running).grasps.empty(); }));
+
+  const std::vector<GraspEvent> released = events(running, GraspEvent::RELEASED);
+  ASSERT_EQ(released.size(), 1u);
+  EXPECT_EQ(released[0].grasp_id, left);
+  EXPECT_EQ(running.step(0).step, step);
+}
+
+TEST_F(GraspInterface, AGraspLastsAsLongAsItIsSpokenFor)
+{
+  ros::Publisher targets = ros::NodeHandle().advertise<GraspTargets>("/cloth/grasp_targets", 10);
+  ASSERT_TRUE(isSoon([&] { return targets.getNumSubscribers() > 0; }));
+  constexpr double KEEP_ALIVE = 1.0;
+  const auto steered = cloth_.grasp(at(0.1, BOTTOM), 0.03, 0.0, "", KEEP_ALIVE).grasp_id;
+  const auto dragged = cloth_.grasp(at(-0.1, BOTTOM), 0.03, 0.0, "", KEEP_ALIVE).grasp_id;
+  GraspTargets message;
+  message.header.frame_id = "world";
+  message.targets.resize(1);
+  message.targets[0].grasp_id = steered;
+  message.targets[0].pose.position = at(0.1, BOTTOM);
+
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(2.5 * KEEP_ALIVE);
+  for (ros::WallRate rate(10.0); ros::WallTime::now() < end; rate.sleep())
+  {
+    targets.publish(message);
+    cloth_.drag(dragged, at(-0.1, BOTTOM), 0.1);
+  }
+
+  EXPECT_EQ(states(cloth_).grasps.size(), 2u);
+  EXPECT_TRUE(isSoon([&] { return states(cloth_).grasps.empty(); })) << "now nobody speaks";
+}
+
+TEST_F(GraspInterface, RefusesAKeepAliveThatMakesNoSense)
+{
+  for (const double wrong : { -1.0, 3601.0, static_cast<double>(NAN) })
+  {
+    expectRefused([&] { cloth_.grasp(at(0.1, BOTTOM), 0.03, 0.0, "", wrong); }, "keep_alive [s]");
+  }
+  EXPECT_TRUE(states(cloth_).grasps.empty());
+}
+
 TEST_F(GraspInterface, AStreamMakesNoTopicFasterThanItsRate)
 {
   const std::uint64_t grasp = cloth_.grasp(at(0.0, BOTTOM), 0.05).grasp_id;

@@ -20,6 +20,8 @@ const Range FINITE;
 
 constexpr std::size_t MOST_SPHERES = 1000;  // at once
 
+constexpr double LONGEST_KEEP_ALIVE = 3600.0;  // [s]
+
 constexpr double UNIT_TOLERANCE = 1e-3;  // what a quaternion's length may be off
 
 cloth::Quatd toQuaternion(const geometry_msgs::Quaternion& q)
@@ -338,6 +340,7 @@ std::vector<std::string> problems(const Grasp::Request& request)
   check(found, "point", toVector(request.point), FINITE.high);
   check(found, "radius [m]", request.radius, FINITE);
   check(found, "force_limit [N]", request.force_limit, FINITE);
+  check(found, "keep_alive [s]", request.keep_alive, Range::between(0.0, LONGEST_KEEP_ALIVE));
   if (!request.gripper_frame.empty() && request.gripper_frame.front() == '/')
   {
     found.push_back("gripper_frame is \"" + request.gripper_frame +

@@ -2,6 +2,7 @@
 #include "cloth_tearing/node/grasp_services.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 
 #include "cloth_tearing/core/checks.h"
@@ -10,6 +11,15 @@
 
 namespace cloth_tearing
 {
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+const ros::WallDuration ALIVE_PERIOD(0.1);
+
+}  // namespace
 
 GraspServices::GraspServices(const NodeContext& context) : context_(context)
 {
@@ -24,6 +34,8 @@ GraspServices::GraspServices(const NodeContext& context) : context_(context)
       node, "get_grasp_events", [this](auto& q, auto& a) { onGetGraspEvents(q, a); },
       Effect::LOOKS);
   targets_ = node.subscribe("grasp_targets", 10, &GraspServices::onTargets, this);
+  alive_timer_ = node.createSteadyTimer(
+      ALIVE_PERIOD, [this](const ros::SteadyTimerEvent&) { onAliveTimer(); }, false, false);
 }
 
 void GraspServices::grasp(const Grasp::Request& request, Grasp::Response& response)
@@ -39,8 +51,17 @@ void GraspServices::grasp(const Grasp::Request& request, Grasp::Response& respon
       throw cloth::Refusal("gripper_frame " + wish.followed + ": " + loss);
     }
   }
-  const cloth::GraspTaken taken =
-      context_.loop.call([&wish](cloth::Simulation& simulation) { return simulation.grasp(wish); });
+  std::uint32_t epoch = 0;
+  const cloth::GraspTaken taken = context_.loop.call(
+      [&](cloth::Simulation& simulation)
+      {
+        epoch = simulation.epoch();
+        return simulation.grasp(wish);
+      });
+  if (request.keep_alive > 0.0)
+  {
+    watch({ taken.id, epoch, request.keep_alive });
+  }
   response.grasp_id = taken.id;
   response.held_particles = static_cast<std::uint32_t>(taken.held_particles);
   response.distance = taken.distance;
@@ -48,12 +69,14 @@ void GraspServices::grasp(const Grasp::Request& request, Grasp::Response& respon
 
 void GraspServices::onDrag(const Drag::Request& request)
 {
+  hear(request.grasp_id);
   cloth::refuseIf(problems(request));
   Destination destination = toCore(request, context_.frames.toCloth(request.header));
   const std::uint64_t id = request.grasp_id;
   context_.loop.call(
-      [&destination, id](cloth::Simulation& simulation)
+      [this, &destination, id](cloth::Simulation& simulation)
       {
+        hear(id);  // again: it may have waited for long
         if (destination.keeps_rotation)
         {
           destination.target.pose.rotation = simulation.findGrasp(id).pose.rotation;
@@ -68,8 +91,9 @@ void GraspServices::release(const Release::Request& request, Release::Response& 
   const bool pin = request.pin != 0;
   const cloth::AfterGrasp after = pin ? cloth::AfterGrasp::PINNED : cloth::AfterGrasp::FREE;
   response.released = static_cast<std::uint32_t>(context_.loop.call(
-      [id, pin, after](cloth::Simulation& simulation)
+      [this, id, pin, after](cloth::Simulation& simulation)
       {
+        forget(id);
         if (id == 0)
         {
           return simulation.releaseAll(after);
@@ -130,10 +154,15 @@ void GraspServices::onTargets(const GraspTargets::ConstPtr& message)
 
 void GraspServices::steer(const GraspTargets& message)
 {
+  hear(message);
   cloth::refuseIf(problems(message));
   const cloth::Pose to_cloth = context_.frames.toCloth(message.header);
-  context_.loop.call([&](cloth::Simulation& simulation)
-                     { steerAll(simulation, message, to_cloth); });
+  context_.loop.call(
+      [&](cloth::Simulation& simulation)
+      {
+        hear(message);  // again: it may have waited for long
+        steerAll(simulation, message, to_cloth);
+      });
 }
 
 /// All of them or none. A grasp gets there in the simulated time since it was last steered.
@@ -166,6 +195,76 @@ void GraspServices::steerAll(cloth::Simulation& simulation, const GraspTargets& 
   for (auto steered = steered_at_.begin(); steered != steered_at_.end();)
   {
     steered = simulation.hasGrasp(steered->first) ? std::next(steered) : steered_at_.erase(steered);
+  }
+}
+
+// -- grasps that last as long as somebody speaks for them ----------------------------------------
+
+void GraspServices::watch(const KeepAlive::Watched& grasp)
+{
+  const std::lock_guard<std::mutex> lock(alive_mutex_);
+  alive_.watch(grasp, Clock::now());
+  alive_timer_.start();
+}
+
+void GraspServices::hear(std::uint64_t grasp)
+{
+  const std::lock_guard<std::mutex> lock(alive_mutex_);
+  alive_.hear(grasp, Clock::now());
+}
+
+void GraspServices::hear(const GraspTargets& message)
+{
+  for (const GraspTarget& target : message.targets)
+  {
+    hear(target.grasp_id);
+  }
+}
+
+/// @param grasp 0 = all
+void GraspServices::forget(std::uint64_t grasp)
+{
+  const std::lock_guard<std::mutex> lock(alive_mutex_);
+  grasp == 0 ? alive_.forgetAll() : alive_.forget(grasp);
+}
+
+void GraspServices::onAliveTimer()
+{
+  {
+    const std::lock_guard<std::mutex> lock(alive_mutex_);
+    if (alive_.empty())
+    {
+      alive_timer_.stop();
+    }
+    if (!alive_.look(Clock::now()))
+    {
+      return;
+    }
+  }
+  try
+  {
+    context_.loop.call([this](cloth::Simulation& simulation) { endSilent(simulation); });
+    context_.publisher.touch();
+  }
+  catch (const cloth::Busy&)  // the next turn does it
+  {
+  }
+  const std::lock_guard<std::mutex> lock(alive_mutex_);
+  alive_.skip(Clock::now());
+}
+
+/// Those that are still silent, now that it is the loop's turn. What was taken before a reset or a
+/// state that was restored has ended already.
+void GraspServices::endSilent(cloth::Simulation& simulation)
+{
+  const std::lock_guard<std::mutex> lock(alive_mutex_);
+  for (const KeepAlive::Watched& silent : alive_.takeSilent(Clock::now()))
+  {
+    if (silent.epoch == simulation.epoch() && simulation.hasGrasp(silent.grasp))
+    {
+      simulation.release(silent.grasp, "nobody has spoken for it for its keep_alive of " +
+                                           cloth::text(silent.patience) + " s");
+    }
   }
 }
 

@@ -78,8 +78,11 @@ public:
   /// @param radius [m]; 0 = the nearest particle
   /// @param force_limit [N]; 0 = never slips
   /// @param gripper_frame a tf frame to follow; empty = none
+  /// @param keep_alive it lets go when neither drag() nor ~grasp_targets has named it for so long
+  ///        [s of wall time]; 0 = never
   Grasp::Response grasp(const geometry_msgs::Point& point, double radius = 0.0,
-                        double force_limit = 0.0, const std::string& gripper_frame = "") const
+                        double force_limit = 0.0, const std::string& gripper_frame = "",
+                        double keep_alive = 0.0) const
   {
     Grasp::Request request;
     request.header.frame_id = frame_;
@@ -87,6 +90,7 @@ public:
     request.radius = radius;
     request.force_limit = force_limit;
     request.gripper_frame = gripper_frame;
+    request.keep_alive = keep_alive;
     return call<Grasp>("grasp", request);
   }
 

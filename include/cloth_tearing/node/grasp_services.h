@@ -5,11 +5,14 @@
 #include <cloth_tearing/GraspTargets.h>
 #include <cloth_tearing/Pin.h>
 #include <cloth_tearing/Release.h>
+#include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
 #include <cstdint>
 #include <map>
+#include <mutex>
 
+#include "cloth_tearing/node/keep_alive.h"
 #include "cloth_tearing/node/request_server.h"
 
 namespace cloth_tearing
@@ -41,10 +44,19 @@ private:
   void onTargets(const GraspTargets::ConstPtr& message);
   void steerAll(cloth::Simulation& simulation, const GraspTargets& message,
                 const cloth::Pose& to_cloth);
+  void watch(const KeepAlive::Watched& grasp);
+  void hear(std::uint64_t grasp);
+  void hear(const GraspTargets& message);
+  void forget(std::uint64_t grasp);
+  void onAliveTimer();
+  void endSilent(cloth::Simulation& simulation);
 
   NodeContext context_;
   ros::Subscriber targets_;
   std::map<std::uint64_t, double> steered_at_;  ///< by grasp, in simulated time [s]; the loop's
+  std::mutex alive_mutex_;
+  KeepAlive alive_;               ///< guarded by alive_mutex_
+  ros::SteadyTimer alive_timer_;  ///< guarded by alive_mutex_; runs while alive_ watches anybody
 };
 
 }  // namespace cloth_tearing
