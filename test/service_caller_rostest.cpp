@@ -211,6 +211,28 @@ TEST_F(Calls, ThatAreNotAnsweredHoldUpNobody)
   QCoreApplication::processEvents();
 }
 
+TEST_F(Calls, OfManyCallersThatFinishTogetherHoldUpNoLongerThanThoseOfOne)
+{
+  constexpr std::size_t CALLERS = 6;
+  std::vector<std::unique_ptr<ServiceCaller>> callers;
+  for (std::size_t i = 0; i < CALLERS; ++i)
+  {
+    callers.push_back(std::make_unique<ServiceCaller>());
+    callInVain(*callers.back());
+    EXPECT_TRUE(isSoon([&] { return callers.back()->waiting() > 0.0; }));
+  }
+
+  const Clock::time_point start = Clock::now();
+  for (const auto& caller : callers)
+  {
+    caller->finishBy(start + LAST_CALLS);
+  }
+  callers.clear();
+
+  EXPECT_GE(Clock::now() - start, LAST_CALLS);
+  EXPECT_LT(Clock::now() - start, CALLERS * LAST_CALLS / 2);
+}
+
 TEST_F(Calls, ThatAreLeftAreDoneBeforeTheEnd)
 {
   auto caller = std::make_unique<ServiceCaller>();

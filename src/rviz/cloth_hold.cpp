@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cloth_tearing/GraspTargets.h"
+#include "cloth_tearing/rviz/vector_messages.h"
 
 namespace cloth_tearing
 {
@@ -14,23 +15,16 @@ namespace cloth_tearing
 namespace
 {
 
-constexpr double PATIENCE = 2.0;       // with an answer, before it is told [s]
-constexpr double LAST_PATIENCE = 1.0;  // with an answer, before the end [s]
+using Clock = std::chrono::steady_clock;
+
+constexpr double KEEP_ALIVE = 2.0;  // the node lets go without us [s]
+constexpr double HEARTBEAT = 0.3;   // between two targets at most [s]
 constexpr std::chrono::milliseconds PAUSE{ 5 };
 constexpr std::uint32_t QUEUE = 10;
 
 double now()
 {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-geometry_msgs::Point toPoint(const cloth::Vec3d& x)
-{
-  geometry_msgs::Point point;
-  point.x = x.x();
-  point.y = x.y();
-  point.z = x.z();
-  return point;
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -43,14 +37,25 @@ ClothHold::ClothHold(const ros::NodeHandle& node, const std::string& cloth_node)
 
 ClothHold::~ClothHold()
 {
-  letGo(false);
+  if (!end_)
+  {
+    finishBy(Clock::now() + ServiceCaller::LAST_PATIENCE);
+  }
   // What was only asked for can be let go when its answer has been heard.
-  const double deadline = now() + LAST_PATIENCE;
-  while (state_.phase() == HoldState::Phase::ASKED && now() < deadline)
+  QCoreApplication::sendPostedEvents(&caller_);
+  while (state_.phase() == HoldState::Phase::ASKED && Clock::now() < *end_)
   {
     std::this_thread::sleep_for(PAUSE);
     QCoreApplication::sendPostedEvents(&caller_);
   }
+}
+
+void ClothHold::finishBy(Clock::time_point end)
+{
+  letGo(false);
+  end_ = end;
+  // The last answer may ask for one more call.
+  caller_.finishBy(end + ServiceCaller::LAST_PATIENCE);
 }
 
 void ClothHold::take(const std::string& frame, const cloth::Vec3d& point, double radius)
@@ -60,17 +65,25 @@ void ClothHold::take(const std::string& frame, const cloth::Vec3d& point, double
     return;
   }
   frame_ = frame;
-  target_.reset();
+  target_ = point;
+  is_new_ = false;
   Grasp::Request request;
   request.header.frame_id = frame;
-  request.point = toPoint(point);
+  request.point = toMessage<geometry_msgs::Point>(point);
   request.radius = radius;
+  request.keep_alive = KEEP_ALIVE;
   if (state_.phase() == HoldState::Phase::ASKED)
   {
     next_ = request;
     return;
   }
   ask(request);
+}
+
+void ClothHold::lead(const cloth::Vec3d& target)
+{
+  target_ = target;
+  is_new_ = true;
 }
 
 void ClothHold::ask(const Grasp::Request& request)
@@ -80,6 +93,7 @@ void ClothHold::ask(const Grasp::Request& request)
   caller_.call<Grasp>(node_.resolveName("grasp"), request,
                       [this](const auto& answer)
                       {
+                        sent_at_ = now();
                         if (const auto end = state_.answer(answer.problem, answer.response, now()))
                         {
                           release(*end);
@@ -142,11 +156,17 @@ void ClothHold::update()
   found_ = there;
 }
 
-/// A message that nobody gets is not sent, and a node that is silent gets one when it is back.
+/// What is new at once, but to a node that is silent no faster than it takes to stay alive.
+bool ClothHold::hasToSpeak() const
+{
+  const bool at_once = is_new_ && !state_.silent(now());
+  return state_.phase() == HoldState::Phase::HELD && (at_once || now() > sent_at_ + HEARTBEAT);
+}
+
+/// A message that nobody gets is not sent.
 void ClothHold::sendTarget()
 {
-  if (!target_ || state_.phase() != HoldState::Phase::HELD || state_.silent(now()) ||
-      targets_.getNumSubscribers() == 0)
+  if (!hasToSpeak() || targets_.getNumSubscribers() == 0)
   {
     return;
   }
@@ -154,20 +174,16 @@ void ClothHold::sendTarget()
   message.header.frame_id = frame_;
   message.targets.resize(1);
   message.targets[0].grasp_id = state_.grasp();
-  message.targets[0].pose.position = toPoint(*target_);
+  message.targets[0].pose.position = toMessage<geometry_msgs::Point>(target_);
   targets_.publish(message);
-  target_.reset();
+  is_new_ = false;
+  sent_at_ = now();
 }
 
 std::string ClothHold::words() const
 {
-  const double waiting = caller_.waiting();
-  if (waiting > PATIENCE)
-  {
-    return node_.getNamespace() + " has not answered for " +
-           std::to_string(static_cast<int>(waiting)) + " s";
-  }
-  return state_.words(now());
+  const std::string waiting = caller_.waitingFor(node_.getNamespace());
+  return waiting.empty() ? state_.words(now()) : waiting;
 }
 
 }  // namespace cloth_tearing

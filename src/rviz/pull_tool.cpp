@@ -6,6 +6,7 @@
 #include <rviz/properties/float_property.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 #include <tuple>
@@ -46,7 +47,14 @@ PullTool::PullTool()
   radius_->setMax(MOST_RADIUS);
 }
 
-PullTool::~PullTool() = default;
+PullTool::~PullTool()
+{
+  const auto end = std::chrono::steady_clock::now() + ServiceCaller::LAST_PATIENCE;
+  for (auto& hold : holds_)
+  {
+    hold.second.finishBy(end);
+  }
+}
 
 void PullTool::onInitialize()
 {
@@ -57,10 +65,13 @@ void PullTool::onInitialize()
 
 void PullTool::activate()
 {
+  hold_ = nullptr;
+  note_.clear();
 }
 
 void PullTool::deactivate()
 {
+  pressed_ = false;
   letGo(false);
   for (auto& hold : holds_)
   {
@@ -77,6 +88,7 @@ int PullTool::processMouseEvent(rviz::ViewportMouseEvent& event)
 {
   panel_ = event.panel;
   buttons_ = event.buttons_down != Qt::NoButton;
+  followFixedFrame();
   if (pressed_)
   {
     lead(event);
@@ -87,6 +99,7 @@ int PullTool::processMouseEvent(rviz::ViewportMouseEvent& event)
   int flags = 0;
   if (pressed_ && !event.left())
   {
+    pressed_ = false;
     letGo(event.control());
   }
   else if (leftPressed(event) && take(event))
@@ -120,6 +133,7 @@ bool PullTool::take(const rviz::ViewportMouseEvent& event)
                .emplace(std::piecewise_construct, std::forward_as_tuple(cloth->node),
                         std::forward_as_tuple(node, cloth->node))
                .first->second;
+  note_.clear();
   hold_->take(context_->getFixedFrame().toStdString(), cloth->point, radius_->getFloat());
   drag_.begin(viewOf(*event.viewport), placeIn(*event.viewport, event.x, event.y), cloth->point);
   pressed_ = true;
@@ -147,10 +161,20 @@ void PullTool::lead(const rviz::ViewportMouseEvent& event)
 
 void PullTool::letGo(bool pin)
 {
-  pressed_ = false;
-  if (hold_ != nullptr)
+  if (hold_ != nullptr && hold_->busy())
   {
     hold_->letGo(pin);
+  }
+}
+
+/// Where the pointer is says nothing any more of where the cloth is to be.
+void PullTool::followFixedFrame()
+{
+  const QString fixed_frame = context_->getFixedFrame();
+  if (hold_ != nullptr && hold_->busy() && hold_->frame() != fixed_frame.toStdString())
+  {
+    letGo(false);
+    note_ = "Let go: the fixed frame has changed to " + fixed_frame;
   }
 }
 
@@ -165,6 +189,7 @@ void PullTool::changeRadius(int wheel_delta)
 
 void PullTool::update(float /*wall_dt*/, float /*ros_dt*/)
 {
+  followFixedFrame();
   for (auto& hold : holds_)
   {
     hold.second.update();
@@ -239,8 +264,12 @@ QString PullTool::words() const
   const bool holding = pressed_ && hold_->busy();
   const QString keys =
       holding ? QString(KEYS_HOLDING) : QString(KEYS_IDLE).arg(radius_->getFloat(), 0, 'g', 3);
-  const QString said =
-      hold_ == nullptr ? QString() : QString::fromStdString(hold_->words()).toHtmlEscaped();
+  QString said = note_;
+  if (said.isEmpty() && hold_ != nullptr)
+  {
+    said = QString::fromStdString(hold_->words());
+  }
+  said = said.toHtmlEscaped();
   return said.isEmpty() ? keys : said + ". " + keys;
 }
 

@@ -9,7 +9,7 @@ namespace cloth_tearing
 namespace
 {
 
-constexpr std::chrono::seconds LAST_CALLS{ 1 };  // for what is to be said before the end
+constexpr double PATIENCE = 2.0;  // with an answer, before it is told [s]
 
 }  // namespace
 
@@ -21,7 +21,8 @@ ServiceCaller::~ServiceCaller()
 {
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, LAST_CALLS, [this] { return waiting_.empty() && !busy_; });
+    changed_.wait_until(lock, end_.value_or(Clock::now() + LAST_PATIENCE),
+                        [this] { return waiting_.empty() && !busy_; });
     ending_ = true;
     cutAll();
     changed_.notify_all();
@@ -50,6 +51,14 @@ double ServiceCaller::waiting() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   return busy_ ? std::chrono::duration<double>(Clock::now() - since_).count() : 0.0;
+}
+
+std::string ServiceCaller::waitingFor(const std::string& node) const
+{
+  const double seconds = waiting();
+  return seconds > PATIENCE
+             ? node + " has not answered for " + std::to_string(static_cast<int>(seconds)) + " s"
+             : std::string();
 }
 
 void ServiceCaller::enqueue(Task task)

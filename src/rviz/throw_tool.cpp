@@ -5,10 +5,12 @@
 #include <rviz/properties/float_property.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "cloth_tearing/ThrowSphere.h"
+#include "cloth_tearing/rviz/vector_messages.h"
 
 namespace cloth_tearing
 {
@@ -19,19 +21,8 @@ namespace
 constexpr double LONGEST_FLIGHT = 0.4;  // to the cloth: from a camera far away too [s]
 constexpr double ROOM = 1.1;            // to the cloth at the start, in radii
 constexpr int MOST_STEPS_BACK = 30;     // to find it
-constexpr double PATIENCE = 2.0;        // with an answer, before it is told [s]
 
 const char* const KEYS = "<b>Left-Click:</b> Throw a ball. <b>Middle, Right, Wheel:</b> Camera.";
-
-template <class Message>
-Message toMessage(const cloth::Vec3d& x)
-{
-  Message message;
-  message.x = x.x();
-  message.y = x.y();
-  message.z = x.z();
-  return message;
-}
 
 }  // namespace
 
@@ -49,6 +40,15 @@ ThrowTool::ThrowTool()
   lifetime_ =
       new rviz::FloatProperty("Lifetime", 3.0F, "After which the ball is gone [s].", container);
   lifetime_->setMin(0.01F);
+}
+
+ThrowTool::~ThrowTool()
+{
+  const auto end = std::chrono::steady_clock::now() + ServiceCaller::LAST_PATIENCE;
+  for (auto& caller : callers_)
+  {
+    caller.second.finishBy(end);
+  }
 }
 
 void ThrowTool::activate()
@@ -155,14 +155,10 @@ void ThrowTool::update(float /*wall_dt*/, float /*ros_dt*/)
 
 void ThrowTool::tell()
 {
-  QString said = note_;
   const auto caller = callers_.find(node_);
-  if (caller != callers_.end() && caller->second.waiting() > PATIENCE)
-  {
-    said = QString("%1 has not answered for %2 s")
-               .arg(QString::fromStdString(node_).toHtmlEscaped())
-               .arg(static_cast<int>(caller->second.waiting()));
-  }
+  const std::string waiting =
+      caller == callers_.end() ? std::string() : caller->second.waitingFor(node_);
+  const QString said = waiting.empty() ? note_ : QString::fromStdString(waiting).toHtmlEscaped();
   setStatus(said.isEmpty() ? QString(KEYS) : said + ". " + KEYS);
 }
 

@@ -5,6 +5,7 @@
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -22,8 +23,12 @@ class ClothHold
 public:
   ClothHold(const ros::NodeHandle& node, const std::string& cloth_node);
 
-  /// Lets go.
+  /// Lets go; waits a moment for the node's answers, or as finishBy() says.
   ~ClothHold();
+
+  /// Lets go for good. Several that are told the same time before the first of them is destroyed
+  /// take no longer than one.
+  void finishBy(std::chrono::steady_clock::time_point end);
 
   ClothHold(const ClothHold&) = delete;
   ClothHold& operator=(const ClothHold&) = delete;
@@ -33,12 +38,16 @@ public:
   void take(const std::string& frame, const cloth::Vec3d& point, double radius);
 
   /// The grasp is to be at a point of that frame [m].
-  void lead(const cloth::Vec3d& target) { target_ = target; }
+  void lead(const cloth::Vec3d& target);
+
+  /// Of the points, as take() was told it last.
+  const std::string& frame() const { return frame_; }
 
   /// Lets go, if need be as soon as the node has answered.
   void letGo(bool pin);
 
-  /// To be called again and again: sends where to, and notices a node that is gone.
+  /// To be called again and again: sends where to, also to say that there is still somebody, and
+  /// notices a node that is gone.
   void update();
 
   /// Does not listen to the node any more, for now.
@@ -57,13 +66,17 @@ private:
   void listen();
   void ask(const Grasp::Request& request);
   void release(const Release::Request& request);
+  bool hasToSpeak() const;
   void sendTarget();
 
   ros::NodeHandle node_;  ///< with the cloth's node for namespace
   HoldState state_;
   std::string frame_;
   std::optional<Grasp::Request> next_;  ///< to be asked for when the last one is answered
-  std::optional<cloth::Vec3d> target_;  ///< that was not sent yet
+  cloth::Vec3d target_{ 0.0, 0.0, 0.0 };
+  bool is_new_ = false;   ///< target_ was not sent yet
+  double sent_at_ = 0.0;  ///< when one was, or the grasp [s]
+  std::optional<std::chrono::steady_clock::time_point> end_;
   ros::Publisher targets_;
   ros::Subscriber states_;
   ros::Subscriber events_;

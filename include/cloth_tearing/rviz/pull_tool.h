@@ -58,6 +58,7 @@ private:
   bool take(const rviz::ViewportMouseEvent& event);
   void lead(const rviz::ViewportMouseEvent& event);
   void letGo(bool pin);
+  void followFixedFrame();
   void changeRadius(int wheel_delta);
   std::optional<PickedCloth> underPointer() const;
   Ball ballNow() const;
@@ -69,6 +70,7 @@ private:
   std::map<std::string, ClothHold>
       holds_;                  ///< by the node; one that does not answer hinders no other
   ClothHold* hold_ = nullptr;  ///< the last one
+  QString note_;               ///< more important than what that one tells; empty = none
   ViewDrag drag_;
   bool pressed_ = false;  ///< the left button, on a cloth
 

@@ -12,6 +12,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -39,10 +40,18 @@ public:
   template <class Service>
   using Callback = std::function<void(const Answer<typename Service::Response>&)>;
 
+  /// With calls that are left at the end.
+  static constexpr std::chrono::seconds LAST_PATIENCE{ 1 };
+
   ServiceCaller();
 
-  /// Gives calls that are left a second to be done; the rest is cut short. Nobody is told any more.
+  /// Lets calls that are left be done for LAST_PATIENCE, or as finishBy() says; cuts the rest
+  /// short. Nobody is told any more.
   ~ServiceCaller() override;
+
+  /// Until when the destructor waits for what is left. Several that are told the same time before
+  /// the first of them is destroyed take no longer than one.
+  void finishBy(std::chrono::steady_clock::time_point end) { end_ = end; }
 
   ServiceCaller(const ServiceCaller&) = delete;
   ServiceCaller& operator=(const ServiceCaller&) = delete;
@@ -77,6 +86,9 @@ public:
 
   /// For how long the call under way has been waiting for its answer [s]; 0 = none is under way.
   double waiting() const;
+
+  /// "/cloth has not answered for 3 s"; empty as long as that is not worth telling.
+  std::string waitingFor(const std::string& node) const;
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -125,6 +137,7 @@ private:
   void cutAll();
   bool isOf(Turn turn) const;
 
+  std::optional<Clock::time_point> end_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Task> waiting_;  ///< guarded by mutex_, as is what follows

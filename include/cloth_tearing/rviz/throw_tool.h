@@ -27,6 +27,7 @@ class ThrowTool : public ClothTool
   Q_OBJECT
 public:
   ThrowTool();
+  ~ThrowTool() override;
 
   void activate() override;
   void deactivate() override;
