@@ -27,6 +27,7 @@ constexpr float ENDLESS = std::numeric_limits<float>::infinity();
 ClothSurface square()
 {
   ClothSurface message;
+  message.header.frame_id = "world";
   message.positions = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 };
   message.strain = { 0, 0, 0, 0 };
   message.parents = { 0, 0, 1, 1, 2, 2, 3, 3 };
@@ -153,7 +154,9 @@ TEST(SurfaceMesh, TakesAClothThatIsGone)
   SurfaceMesh mesh;
   mesh.take(square());
 
-  EXPECT_TRUE(mesh.take(ClothSurface()));
+  ClothSurface nothing;
+  nothing.header.frame_id = "world";
+  EXPECT_TRUE(mesh.take(nothing));
 
   EXPECT_TRUE(mesh.indices().empty());
 }
@@ -166,6 +169,7 @@ struct Malformed
 };
 
 const std::vector<Malformed> MALFORMED = {
+  { [](ClothSurface& m) { m.header.frame_id.clear(); }, "header.frame_id is empty, must name" },
   { [](ClothSurface& m) { m.positions.pop_back(); }, "positions has 11 elements, must have a mul" },
   { [](ClothSurface& m) { m.positions.resize(9); }, "triangles[5] is 3, must be below 3" },
   { [](ClothSurface& m) { m.positions.clear(); }, "triangles[0] is 0, must be below 0" },

@@ -145,6 +145,10 @@ private:
 std::vector<std::string> surfaceProblems(const ClothSurface& message)
 {
   Problems found;
+  if (message.header.frame_id.empty())
+  {
+    found.push_back("header.frame_id is empty, must name a frame");
+  }
   const std::size_t particles = message.positions.size() / 3;
   checkMultiple(found, "positions", message.positions.size(), 3);
   checkMultiple(found, "triangles", message.triangles.size(), 3);

@@ -12,8 +12,8 @@ namespace cloth_tearing
 {
 
 /// Everything wrong with a message, one sentence for each field that names its value and limit:
-/// arrays whose lengths do not fit, indices without a particle, numbers that are not finite or too
-/// large to be drawn. Empty if it can be drawn.
+/// no frame, arrays whose lengths do not fit, indices without a particle, numbers that are not
+/// finite or too large to be drawn. Empty if it can be drawn.
 std::vector<std::string> surfaceProblems(const ClothSurface& message);
 
 /// A vertex: a particle at one of its places in the texture.
