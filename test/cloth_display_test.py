@@ -6,7 +6,7 @@ import tempfile
 
 import rospy
 import yaml
-from cloth_tearing.msg import ClothSurface, GraspState, GraspStates, HeldParticle
+from cloth_tearing.msg import ClothSurface, GraspState, GraspStates, HeldParticle, SimulationStatus
 from geometry_msgs.msg import TransformStamped
 from rosgraph_msgs.msg import Log
 from tf2_msgs.msg import TFMessage
@@ -59,7 +59,8 @@ def displays(image):
     return [
         display("Second", Coloring={"Value": "Texture", "Texture Image": str(image)}),
         display("Strain", Coloring={"Value": "Strain", "Lowest Strain": 0.1, "Highest Strain": 0.2}),
-        display("Wires", Coloring=plain, Wireframe={"Value": True, "Color": words(WIRES)}),
+        display("Wires", Coloring=plain, Wireframe={"Value": True, "Color": words(WIRES), "Alpha": 1.0}),
+        display("Faint", Coloring=plain, Wireframe={"Value": True, "Color": words(WIRES)}),
         display("Marked", **marks(True)),
         display("Bare", **marks(False)),
         display("Pulled", Coloring=plain, Forces={"Value": True, "Color": words(ARROW), "Scale": 0.1}),
@@ -165,6 +166,7 @@ class ClothDisplay(RvizTest):
         cls.publish("second", square(-0.5, 0.2, frame="shelf", behind=True))
         cls.publish("strain", strained_square(0.3, 0.1))
         cls.publish("wires", square(-0.3, 0.1))
+        cls.publish("faint", square(0.82, 0.1))
         cls.publish("marked", marked_square(0.3, 0.75))
         cls.publish("bare", marked_square(-0.9, 0.1))
         cls.publish("pulled", square(0.0, -5.0))  # out of sight
@@ -181,6 +183,10 @@ class ClothDisplay(RvizTest):
         """As a node does that was started again."""
         cls.publishers.pop(f"/{name}/surface").unregister()
         cls.publish(name, message, listener=listener)
+
+    def reset_rviz(self):
+        """By the button below the panel."""
+        self.pointer.click(28, HEIGHT - 14)
 
     def region(self, x, z, width=SIZE, height=SIZE, margin=0.03):
         """Where a part of the plane y = 0 is drawn, with a margin [m]."""
@@ -256,6 +262,22 @@ class ClothDisplay(RvizTest):
                                 self.cloth_is_at(p, LOWER))
         self.assertFalse(picture.has_sign(ERROR))
 
+    def test_05_warns_when_the_status_of_a_node_stays_away_though_it_seems_to_publish(self):
+        def tell_status():
+            self.publish("cloth", SimulationStatus(), "status")  # as a node does ten times a second
+
+        picture = self.wait_for("listening", lambda _: tell_status() or
+                                self.publishers["/cloth/status"].get_num_connections() > 0)
+        self.assertFalse(picture.has_sign(WARNING))
+        self.wait_for("a warning", lambda p: p.has_sign(WARNING) and self.cloth_is_at(p, LOWER))
+        self.keep("killed")
+
+        picture = self.wait_for("no warning", lambda p: tell_status() or not p.has_sign(WARNING))
+
+        self.assertFalse(picture.has_sign(ERROR))
+        self.publishers.pop("/cloth/status").unregister()
+        self.reset_rviz()
+
     def test_06_colours_by_strain_between_the_ends_of_the_range(self):
         ends = {LOW: 0.3, MIDDLE: 0.3 + 0.5 * SIZE, HIGH: 0.3 + SIZE}  # where on x they have to be [m]
         strips = {color: self.region(x - 0.01, 0.1, width=0.02, margin=0.0) for color, x in ends.items()}
@@ -276,6 +298,15 @@ class ClothDisplay(RvizTest):
         box = picture.box(WIRES, where)
         self.assertGreater(box[2] - box[0], 0.8 * (where[2] - where[0]))
         self.assertGreater(box[3] - box[1], 0.8 * (where[3] - where[1]))
+
+    def test_07_lets_the_cloth_show_through_the_wires_unless_told_otherwise(self):
+        where = self.region(0.82, 0.1)
+        twice = tuple(round(plain + (wire - plain) * (1.0 - 0.65 ** 2)) for wire, plain in zip(WIRES, PLAIN))
+
+        picture = self.wait_for("faint wires", lambda p: p.count(twice, where, tolerance=20) > 100)
+
+        self.keep("faint_wires")
+        self.assertLess(picture.count(WIRES, where), 20)
 
     def test_08_draws_torn_edges_weak_points_and_held_particles_only_where_they_are_wanted(self):
         marked, bare = self.region(0.3, 0.75), self.region(-0.9, 0.1)
@@ -314,7 +345,7 @@ class ClothDisplay(RvizTest):
         self.wait_for("the cloth", lambda p: self.cloth_is_at(p, HIGH_UP))
         before = listener.count
 
-        self.pointer.click(28, HEIGHT - 14)  # the button below the panel
+        self.reset_rviz()
 
         self.wait_until("it has subscribed anew", lambda: listener.count > before)
         picture = self.wait_for("the cloth", lambda p: self.cloth_is_at(p, HIGH_UP) and

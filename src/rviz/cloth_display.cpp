@@ -14,6 +14,7 @@
 #include <rviz/properties/string_property.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
@@ -33,6 +34,9 @@ constexpr std::uint32_t QUEUE = 2;    // of messages, of which only the last is 
 constexpr float LEAST_RANGE = 1e-4F;  // between the ends of the strain range [-]
 constexpr float LEAST_SIZE = 1e-5F;   // of lines and points [m]
 constexpr float MOST_LENGTH = 1e9F;   // of a vector from outside
+
+// A node tells its status ten times a second, also while it is paused.
+constexpr std::chrono::seconds SILENCE{ 2 };
 
 const char* const DEFAULT_IMAGE = "package://cloth_tearing/media/woven_checker.png";
 
@@ -93,11 +97,20 @@ void ClothDisplay::addColoring()
 
 void ClothDisplay::addParts()
 {
-  wireframe_ = new rviz::BoolProperty("Wireframe", false, "The edges of the triangles.", this,
-                                      SLOT(updateStyle()));
+  wireframe_ = new rviz::BoolProperty("Wireframe", false,
+                                      "The edges of the triangles. Without a graphics card, those "
+                                      "of a fine cloth take much time to draw.",
+                                      this, SLOT(updateStyle()));
   wireframe_->setDisableChildrenIfFalse(true);
   wireframe_color_ = new rviz::ColorProperty("Color", QColor(40, 42, 48), "Of the edges.",
                                              wireframe_, SLOT(updateStyle()), this);
+  wireframe_alpha_ =
+      new rviz::FloatProperty("Alpha", 0.35F,
+                              "Of the edges: 0 is invisible, 1 hides what is behind. Little shows "
+                              "the cloth between the edges of a fine mesh.",
+                              wireframe_, SLOT(updateStyle()), this);
+  wireframe_alpha_->setMin(0.0F);
+  wireframe_alpha_->setMax(1.0F);
   torn_edges_ =
       addStroke("Torn Edges", QColor(217, 13, 89), "Width", 0.004F, "Edges that a tear opened.");
   weak_points_ = addStroke("Weak Points", QColor(255, 217, 0), "Size", 0.012F,
@@ -152,6 +165,7 @@ ClothStyle ClothDisplay::style() const
   style.plain_color = plain_color_->getOgreColor();
   style.wireframe = wireframe_->getBool();
   style.wireframe_color = wireframe_color_->getOgreColor();
+  style.wireframe_color.a = wireframe_alpha_->getFloat();
   style.torn_edges = torn_edges_.style();
   style.weak_points = weak_points_.style();
   style.held = held_.style();
@@ -256,6 +270,8 @@ void ClothDisplay::subscribe()
     surface_subscriber_ = update_nh_.subscribe(topic, QUEUE, &ClothDisplay::takeSurface, this);
     grasp_subscriber_ = update_nh_.subscribe(ros::names::append(clothNode(), "grasp_states"), QUEUE,
                                              &ClothDisplay::takeGrasps, this);
+    status_subscriber_ = update_nh_.subscribe(ros::names::append(clothNode(), "status"), 1,
+                                              &ClothDisplay::takeStatus, this);
   }
   catch (const ros::Exception& error)
   {
@@ -278,6 +294,8 @@ std::string ClothDisplay::clothNode() const
 
 void ClothDisplay::unsubscribe()
 {
+  status_subscriber_.shutdown();
+  heard_.reset();
   grasp_subscriber_.shutdown();
   surface_subscriber_.shutdown();
 }
@@ -288,7 +306,7 @@ void ClothDisplay::reset()
   unsubscribe();
   rviz::Display::reset();
   surface_.reset();
-  place_problem_.reset();
+  place_told_ = false;
   grasps_.reset();
   problem_.clear();
   if (visual_)
@@ -298,6 +316,11 @@ void ClothDisplay::reset()
     tellImage();  // its status was cleared as well
   }
   subscribe();
+}
+
+void ClothDisplay::fixedFrameChanged()
+{
+  place_told_ = false;
 }
 
 void ClothDisplay::takeSurface(const ClothSurface::ConstPtr& message)
@@ -313,6 +336,10 @@ void ClothDisplay::takeSurface(const ClothSurface::ConstPtr& message)
     return;
   }
   problem_.clear();
+  if (surface_ && surface_->header.frame_id != message->header.frame_id)
+  {
+    place_told_ = false;
+  }
   surface_ = message;
   drawn_ = false;
   setStatus(StatusProperty::Ok, "Surface",
@@ -340,7 +367,6 @@ void ClothDisplay::place()
   Ogre::Quaternion orientation;
   const bool placed =
       context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation);
-  std::string problem;
   if (placed)
   {
     const geometry_msgs::Point& origin = surface_->origin;
@@ -350,22 +376,25 @@ void ClothDisplay::place()
         pose_.position == before.position && pose_.rotation.coeffs() == before.rotation.coeffs();
     visual_->setPose(position, orientation);
   }
-  else if (!context_->getFrameManager()->transformHasProblems(frame, ros::Time(), problem))
+  if (placed != placed_ || !place_told_)
   {
-    problem = "no transform from frame [" + frame + "]";
+    tellPlace(placed ? "" : placeProblem(frame));
   }
   drawn_ &= placed == placed_;
   placed_ = placed;
-  tellPlace(problem);
+}
+
+/// Not to be asked at each frame: tf may print something.
+std::string ClothDisplay::placeProblem(const std::string& frame) const
+{
+  std::string problem;
+  const bool known = context_->getFrameManager()->transformHasProblems(frame, ros::Time(), problem);
+  return known ? problem : "no transform from frame [" + frame + "]";
 }
 
 void ClothDisplay::tellPlace(const std::string& problem)
 {
-  if (place_problem_ == problem)
-  {
-    return;
-  }
-  place_problem_ = problem;
+  place_told_ = true;
   setStatusStd(problem.empty() ? StatusProperty::Ok : StatusProperty::Error, "Transform",
                problem.empty() ? "OK" : problem);
 }
@@ -374,6 +403,11 @@ void ClothDisplay::takeGrasps(const GraspStates::ConstPtr& message)
 {
   grasps_ = message;
   drawn_ = false;
+}
+
+void ClothDisplay::takeStatus(const SimulationStatus::ConstPtr& /*message*/)
+{
+  heard_ = Clock::now();
 }
 
 // -- picking -------------------------------------------------------------------------------------
@@ -432,6 +466,10 @@ void ClothDisplay::watchSource()
   {
     source = Source::GONE;
   }
+  else if (heard_ && Clock::now() - *heard_ > SILENCE)
+  {
+    source = Source::HANGING;  // ROS goes on counting a publisher that was killed
+  }
   if (source == source_)
   {
     return;
@@ -446,12 +484,23 @@ void ClothDisplay::watchSource()
     case Source::GONE:
       setStatus(StatusProperty::Warn, "Topic",
                 "No messages any more: nobody publishes; shown is the last of " + count);
-      grasps_.reset();
-      drawn_ = false;
+      forgetGrasps();
+      break;
+    case Source::HANGING:
+      setStatus(
+          StatusProperty::Warn, "Topic",
+          "No status of the node any more: it was killed or hangs; shown is the last of " + count);
+      forgetGrasps();
       break;
     default:
       setStatus(StatusProperty::Ok, "Topic", count + " messages received");
   }
+}
+
+void ClothDisplay::forgetGrasps()
+{
+  grasps_.reset();
+  drawn_ = false;
 }
 
 std::vector<ForceArrows::Force> ClothDisplay::forcesInFixedFrame() const

@@ -116,7 +116,9 @@ void ClothMaterial::drawWires(const ClothStyle& style)
   wires->setCullingMode(Ogre::CULL_CLOCKWISE);
   wires->setDepthBias(1.0F, 1.0F);  // before the triangles that they bound
   wires->setAmbient(Ogre::ColourValue::Black);
-  wires->setDiffuse(Ogre::ColourValue::Black);
+  wires->setDiffuse(0.0F, 0.0F, 0.0F, style.wireframe_color.a);
+  wires->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+  wires->setDepthWriteEnabled(false);
   wires->setSelfIllumination(style.wireframe_color);  // the same in any light
 }
 

@@ -5,6 +5,7 @@
 #include <ros/subscriber.h>
 #include <rviz/display.h>
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "cloth_tearing/ClothSurface.h"
 #include "cloth_tearing/GraspStates.h"
+#include "cloth_tearing/SimulationStatus.h"
 #include "cloth_tearing/rviz/cloth_visual.h"
 #include "cloth_tearing/rviz/force_arrows.h"
 #include "cloth_tearing/rviz/strain_legend.h"
@@ -64,6 +66,7 @@ protected:
   void onInitialize() override;
   void onEnable() override;
   void onDisable() override;
+  void fixedFrameChanged() override;
 
 private Q_SLOTS:
   void updateTopic();
@@ -82,13 +85,16 @@ private:
     StrokeStyle style() const;
   };
 
+  using Clock = std::chrono::steady_clock;
+
   /// What is known of who sends.
   enum class Source
   {
     SUBSCRIBED,
     SILENT,
     SENDING,
-    GONE
+    GONE,
+    HANGING  ///< it was heard of before by its status
   };
 
   void tellImage();
@@ -103,11 +109,14 @@ private:
   void unsubscribe();
   void takeSurface(const ClothSurface::ConstPtr& message);
   void place();
+  std::string placeProblem(const std::string& frame) const;
   void tellPlace(const std::string& problem);
   bool shown() const { return isEnabled() && surface_ && placed_; }
   void refuse(const std::string& reason);
   void watchSource();
   void takeGrasps(const GraspStates::ConstPtr& message);
+  void forgetGrasps();
+  void takeStatus(const SimulationStatus::ConstPtr& message);
   std::vector<ForceArrows::Force> forcesInFixedFrame() const;
 
   rviz::RosTopicProperty* topic_;
@@ -120,6 +129,7 @@ private:
   rviz::ColorProperty* plain_color_;
   rviz::BoolProperty* wireframe_;
   rviz::ColorProperty* wireframe_color_;
+  rviz::FloatProperty* wireframe_alpha_;
   StrokeProperties torn_edges_;
   StrokeProperties weak_points_;
   StrokeProperties held_;
@@ -131,11 +141,11 @@ private:
   std::unique_ptr<ClothVisual> visual_;
   std::unique_ptr<ForceArrows> arrows_;
   SurfaceMesh mesh_;
-  ClothSurface::ConstPtr surface_;            ///< that mesh_ has taken; none = nothing is shown
-  bool new_triangles_ = true;                 ///< since the last drawing
-  bool placed_ = false;                       ///< its frame is known
-  cloth::Pose pose_;                          ///< of the message's origin, in the fixed frame
-  std::optional<std::string> place_problem_;  ///< why not; empty = it is; none = not told yet
+  ClothSurface::ConstPtr surface_;  ///< that mesh_ has taken; none = nothing is shown
+  bool new_triangles_ = true;       ///< since the last drawing
+  bool placed_ = false;             ///< its frame is known
+  cloth::Pose pose_;                ///< of the message's origin, in the fixed frame
+  bool place_told_ = false;         ///< by the status
   bool drawn_ = true;
   std::string image_problem_;  ///< of the texture's image; empty = none
   std::string problem_;        ///< of the last message; empty = none
@@ -144,6 +154,8 @@ private:
   std::uint64_t messages_ = 0;  ///< received since subscribing
   ros::Subscriber grasp_subscriber_;
   GraspStates::ConstPtr grasps_;
+  ros::Subscriber status_subscriber_;
+  std::optional<Clock::time_point> heard_;  ///< last status; none from sources without one
   Source source_ = Source::SUBSCRIBED;
 };
 

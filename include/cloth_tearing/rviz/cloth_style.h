@@ -31,7 +31,7 @@ struct ClothStyle
   std::array<float, 2> strain_range = { { 0.0F, 0.2F } };  ///< from blue to red [-]
   Ogre::ColourValue plain_color;
   bool wireframe = false;
-  Ogre::ColourValue wireframe_color;
+  Ogre::ColourValue wireframe_color;  ///< blended by its alpha
   StrokeStyle torn_edges;
   StrokeStyle weak_points;
   StrokeStyle held;                ///< of grasped particles
