@@ -20,6 +20,7 @@
 #include <QSpinBox>
 #include <QStyle>
 #include <QVBoxLayout>
+#include <chrono>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "cloth_tearing/rviz/status_view.h"
@@ -38,6 +39,7 @@ const char* const DEFAULT_NODE = "/cloth";
 const char* const PROBLEM_STYLE = "color: #b00020;";
 constexpr int MOST_STEPS = 1000000;
 constexpr int ANSWER_LINES = 3;
+constexpr std::chrono::seconds ANSWER_STAYS{ 10 };
 constexpr int LONGEST_NAME = 64;  // of a state, as the node takes it
 constexpr int LONGEST_PART = 16;  // of a word that may not be wrapped
 constexpr double SLOWEST = 0.01;  // of the slider; the digits go further
@@ -134,6 +136,8 @@ ControlPanel::ControlPanel(QWidget* parent) : rviz::Panel(parent)
   answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   answer_->setMinimumHeight(ANSWER_LINES * answer_->fontMetrics().lineSpacing());
   rows->addWidget(answer_, 1);
+  answer_ends_.setSingleShot(true);
+  connect(&answer_ends_, &QTimer::timeout, this, [this] { say(""); });
 
   auto* area = new QScrollArea;  // a small window stays possible
   area->setFrameShape(QFrame::NoFrame);
@@ -259,7 +263,14 @@ QLayout* ControlPanel::makeSliders()
             [this, show](const Config& values, bool refused)
             {
               (this->*show)(values);
-              refused ? complain("refused") : say("");
+              if (!refused)
+              {
+                say("");
+              }
+              else if (!complaining_)  // else the reason has come already
+              {
+                complain("refused");
+              }
             });
   };
   settle(speed_sender_, &ControlPanel::showSpeed);
@@ -478,6 +489,11 @@ void ControlPanel::onStatus(const SimulationStatus& status)
   step_->setEnabled(paused_ || status.pace == "step");
   speed_->setEnabled(status.pace == "wall");
   controls_->setEnabled(true);
+  if (complaining_ && epoch_ != status.epoch)
+  {
+    say("");  // it was of a cloth that is gone
+  }
+  epoch_ = status.epoch;
   if (refusals_ && status.refusals > *refusals_)
   {
     complain(QString::fromStdString(status.last_refusal));
@@ -519,14 +535,20 @@ void ControlPanel::onSilence(const QString& why)
 
 void ControlPanel::say(const QString& text)
 {
-  answer_->setStyleSheet("");
-  answer_->setText(breakable(text));
+  answer(text, false);
 }
 
 void ControlPanel::complain(const QString& problem)
 {
-  answer_->setStyleSheet(PROBLEM_STYLE);
-  answer_->setText(breakable(problem));
+  answer(problem, true);
+}
+
+void ControlPanel::answer(const QString& text, bool problem)
+{
+  complaining_ = problem;
+  answer_->setStyleSheet(problem ? PROBLEM_STYLE : "");
+  answer_->setText(breakable(text));
+  answer_ends_.start(ANSWER_STAYS);
 }
 
 }  // namespace cloth_tearing

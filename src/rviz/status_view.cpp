@@ -56,7 +56,7 @@ StatusView::StatusView() : table_(new QGridLayout(this)), utilisation_(new QProg
   time_ = add("Time", "time", "Simulation time; rises for the node's life.");
   step_ = add("Step", "step", "Steps since the epoch began.");
   reached_ = add("Reached", "reached",
-                 "Simulated over real time, over about the last second; none while it stands or "
+                 "Simulated over real time, over about the last second; none while it is paused or "
                  "has just been told another speed.");
   epoch_ = add("Epoch", "epoch", "Rises with each reset and restored state.");
   basic_ = add("Basic tears", "basic_tears", "Springs of sound cloth that were split.");
@@ -104,7 +104,7 @@ void StatusView::setStatus(const SimulationStatus& status)
 {
   time_->setText(seconds(status.time));
   step_->setText(QString::number(status.step));
-  reached_->setText(status.real_time_factor == 0.0
+  reached_->setText(status.paused || status.real_time_factor == 0.0
                         ? QString(NONE)
                         : QString::number(status.real_time_factor, 'g', 3) + " x");
   epoch_->setText(QString::number(status.epoch));

@@ -7,6 +7,7 @@
 #include <dynamic_reconfigure/Config.h>
 #include <rviz/panel.h>
 
+#include <QTimer>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -79,6 +80,9 @@ private:
   void say(const QString& text);
   void complain(const QString& problem);
 
+  /// Of the last request; gone after a while.
+  void answer(const QString& text, bool problem);
+
   NodeWatch watch_;
   ServiceCaller caller_;
   ServiceCaller stepper_;  ///< ~step may take long, and the others must get through
@@ -87,6 +91,9 @@ private:
   std::set<std::string> asked_;  ///< services whose answers are awaited
   bool paused_ = false;
   std::optional<std::uint64_t> refusals_;  ///< the node's, as last told
+  std::uint64_t epoch_ = 0;                ///< likewise
+  bool complaining_ = false;               ///< the answer that is shown tells a problem
+  QTimer answer_ends_;
 
   QComboBox* nodes_;
   QLabel* state_;
