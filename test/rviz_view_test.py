@@ -31,8 +31,13 @@ TOP, BOTTOM = 1.5, 0.5                 # of the cloth of config/cloth.yaml, a sq
 BUTTONS = {"pause": (141, 3, 5), "step": (3, 121, 5), "reset": (3, 5, 161), "save": (141, 101, 3),
            "restore": (3, 101, 131)}
 FIELDS = {"speed_value": (215, 235, 255), "tear_strain_slider": (255, 225, 215),
-          "weak_strain_slider": (225, 255, 215)}
+          "weak_strain_slider": (225, 255, 215), "state_name": (255, 250, 220)}
+TEXTS = {"reached": (3, 81, 101), "answer": (81, 3, 121)}
+PROBLEM = (176, 0, 32)      # the words of a refusal
+SCROLL_BAR = (1, 201, 203)  # of the panel, below it
 STYLE = "".join(f"QPushButton#{name} {{ color: rgb{color}; }}\n" for name, color in BUTTONS.items())
+STYLE += "".join(f"#{name} {{ color: rgb{color}; }}\n" for name, color in TEXTS.items())
+STYLE += f"QScrollArea QScrollBar:horizontal {{ background: rgb{SCROLL_BAR}; }}\n"
 STYLE += "".join(f"#{name} {{ background-color: rgb{color}; }}\n" for name, color in FIELDS.items())
 
 
@@ -157,6 +162,11 @@ class RvizView(RvizTest):
     def widget(self, color):
         """The region of a widget of the panel."""
         return self.wait_until(f"a widget in {color}", lambda: self.panels().box(color, tolerance=0))
+
+    def reached_width(self):
+        """Of what the panel says of the speed reached; thin lines do not have its full colour [pixels]."""
+        box = self.panels().box(TEXTS["reached"], tolerance=0)
+        return box[2] - box[0] if box else 0
 
     def drag_to_the_end(self, slider):
         """Takes a slider's handle at the lower end, where a key puts it, and draws it to the other."""
@@ -297,6 +307,7 @@ class RvizView(RvizTest):
         self.keep("handle_led")
 
     def test_08_buttons_of_the_panel_pause_step_and_reset(self):
+        self.wait_until("a number", lambda: self.reached_width() > 20)
         self.click("pause")
         self.wait_until("a pause", lambda: self.node.status().paused)
         step, epoch = self.node.status().step, self.node.status().epoch
@@ -305,6 +316,7 @@ class RvizView(RvizTest):
         self.click("step")
         self.wait_until("a step", lambda: self.node.status().step > step)
         self.assertTrue(self.node.status().paused)
+        self.wait_until("nothing reached", lambda: self.reached_width() < 12)  # a dash
         self.click("reset")
         self.wait_until("a reset", lambda: self.node.status().epoch > epoch)
         self.assertEqual(self.node.status().step, 0)
@@ -360,9 +372,12 @@ class RvizView(RvizTest):
 
         self.node.end(signal.SIGKILL)
 
+        self.wait_for("a warning", lambda p: p.has_sign(WARNING))
+        self.keep("node_killed")
         whole = self.wait_for("a whole one", lambda p: self.torn(p) == 0 and
                               p.shows(SHIPPED.values(), self.scene, least=4000))
         self.assertFalse(whole.has_sign(ERROR), "a status is red")
+        self.wait_for("no warning", lambda p: not p.has_sign(WARNING))
 
     def test_12_warns_while_the_node_is_not_there(self):
         self.node.end(signal.SIGINT)
@@ -373,6 +388,41 @@ class RvizView(RvizTest):
                                 p.shows(SHIPPED.values(), self.scene, least=4000))
         self.keep("node_back")
         self.assertFalse(picture.has_sign(ERROR), "a status is red")
+
+    def write_state_name(self, name):
+        left, top, right, bottom = self.widget(FIELDS["state_name"])
+        self.pointer.click((left + right) // 2, (top + bottom) // 2)
+        self.pointer.focus("RViz")
+        self.pointer.key("ctrl+a")
+        self.pointer.write(name)
+
+    def test_13_a_long_name_is_wrapped_and_the_panel_keeps_its_width(self):
+        self.write_state_name(110 * "W")
+
+        self.click("save")
+
+        def lines(panels):
+            box = panels.box(TEXTS["answer"], tolerance=0)
+            return box is not None and box[3] - box[1] > 25
+
+        panels = self.wait_until("the answer", lambda: lines(self.panels()) and self.panels())
+        self.keep("long_name")
+        self.assertEqual(panels.count(SCROLL_BAR, tolerance=0), 0)
+
+    def test_14_a_refusal_goes_after_a_while_and_with_a_reset(self):
+        def refused():
+            return self.panels().count(PROBLEM, tolerance=0) > 0
+
+        self.write_state_name("nothing")
+        self.click("restore")
+        self.wait_until("a refusal", refused)
+        self.keep("refused")
+        self.wait_until("it goes", lambda: not refused())
+
+        self.click("restore")
+        self.wait_until("a refusal", refused)
+        self.node.tell("reset")
+        self.wait_until("it goes at once", lambda: not refused(), patience=5.0)
 
 
 if __name__ == "__main__":
