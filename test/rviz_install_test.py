@@ -5,7 +5,7 @@ import pathlib
 import subprocess
 import tempfile
 
-from rviz_window import ERROR, PATIENCE, SHIPPED, RvizTest, run
+from rviz_window import ERROR, PATIENCE, SHIPPED, RvizTest, run, start
 
 LISTS = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "PKG_CONFIG_PATH")
 
@@ -55,8 +55,8 @@ class RvizInstall(RvizTest):
         build = build_folder()
         cls.prefix = install(build, folder.name)
         environment = environment_of(cls.prefix, build)
-        cls.node = subprocess.Popen([cls.prefix / "lib/cloth_tearing/cloth_tearing_node",
-                                     "__name:=cloth", "_paused:=true"], env=environment)
+        cls.node = start([cls.prefix / "lib/cloth_tearing/cloth_tearing_node", "__name:=cloth",
+                          "_paused:=true"], env=environment)
         cls.addClassCleanup(cls.end_node)
         cls.open(cls.prefix / "share/cloth_tearing/config/cloth.rviz", environment)
 
