@@ -34,8 +34,8 @@ struct HeldParticle
 };
 
 /// The cloth as it is, for drawing and measuring. Pieces put to rest have no triangles and springs
-/// here, but keep their particles, so that indices are particle ids. Nor is a triangle here of which
-/// two springs were released.
+/// here, but keep their particles, so that indices are particle ids. Nor is a triangle here that
+/// lost two of its springs.
 struct Surface
 {
   double time = 0.0;  ///< [s]
