@@ -73,7 +73,7 @@ TEST_P(Endurance, OfClothWhoseTrianglesAreDetachedOneByOneWhileItMoves)
   const auto solver = makeSolver(params.solver);
   SphereContact contact;
   std::vector<Sphere> none;
-  std::vector<Vec3> acceleration;
+  Vec3Array acceleration;
   const auto step = [&]
   {
     cloth.state.previous = cloth.state.position;
@@ -166,7 +166,7 @@ TEST_P(Endurance, OfClothPinnedAtEveryParticle)
   thrown.mass = 0.1;
   thrown.center.x() = 0.3;
   simulation.throwSphere(thrown);
-  const std::vector<Vec3> before = simulation.cloth().state.position;
+  const Vec3Array before = simulation.cloth().state.position;
 
   EXPECT_TRUE(run(simulation, 500).empty());
 

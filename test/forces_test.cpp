@@ -33,7 +33,7 @@ Environment windOnly(const Vec3d& wind, double drag)
 
 Vec3d totalForce(const Cloth& cloth, const Environment& environment)
 {
-  std::vector<Vec3> acceleration;
+  Vec3Array acceleration;
   outerAccelerations(cloth, environment, acceleration);
   Vec3d sum = Vec3d::Zero();
   for (int i = 0; i < cloth.state.size(); ++i)
@@ -47,7 +47,7 @@ TEST(Gravity, PullsEveryParticleAlongItsVector)
 {
   Environment environment = windOnly(Vec3d::Zero(), 0.0);
   environment.gravity = Vec3d(1, -2, 3);
-  std::vector<Vec3> acceleration;
+  Vec3Array acceleration;
 
   outerAccelerations(triangle(0.3), environment, acceleration);
 
@@ -83,7 +83,7 @@ TEST(Wind, SlidesAlongTheClothWithoutForce)
 TEST(Wind, IsFeltAgainstTheMotionOfTheCloth)
 {
   Cloth cloth = triangle(0.2);
-  for (Vec3& v : cloth.state.velocity)
+  for (auto v : cloth.state.velocity)
   {
     v = Vec3(0, 0, 5);
   }

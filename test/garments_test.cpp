@@ -97,10 +97,10 @@ TEST_P(Garment, LoadsHangsIsGraspedDraggedAndTears)
 
   run(simulation, 1000);
 
-  const auto lowest = std::min_element(state.position.begin(), state.position.end(),
-                                       [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+  const Vec3 lowest = *std::min_element(state.position.begin(), state.position.end(),
+                                        [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
   GraspRequest request;
-  request.point = lowest->cast<double>();
+  request.point = lowest.cast<double>();
   request.radius = 0.08;
   request.frame.position = request.point;
   const GraspTaken taken = simulation.grasp(request);

@@ -285,7 +285,7 @@ TEST_F(GraspedSheet, RefusesATargetWithAllThatIsWrongWithIt)
 
 TEST_F(GraspedSheet, IsNotMovedByTheGraspItself)
 {
-  const std::vector<Vec3> before = simulation.cloth().state.position;
+  const Vec3Array before = simulation.cloth().state.position;
   GraspRequest request;
   request.point = at(60);
   request.radius = 0.3;

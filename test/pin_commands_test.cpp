@@ -114,7 +114,7 @@ TEST_F(PinnedByCommand, WhatAGraspHeldStandsStillInTheInstantThatItLetsGo)
   const std::uint64_t moved = simulation.grasp(request).id;
   simulation.steer(moved, { Vec3d(0.0, -0.5, 0.05), Quatd::Identity() }, 0.01);
   run(simulation, 5);
-  const std::vector<Vec3> before = simulation.cloth().state.position;
+  const Vec3Array before = simulation.cloth().state.position;
 
   simulation.release(moved, "done", AfterGrasp::PINNED);
 

@@ -208,8 +208,8 @@ TEST(StepObserver, ChangesNothing)
 TEST(Place, PutsEveryParticleWhereItIsToldAtRest)
 {
   Simulation simulation = torn();
-  std::vector<Vec3> positions = simulation.cloth().state.position;
-  for (Vec3& x : positions)
+  Vec3Array positions = simulation.cloth().state.position;
+  for (auto x : positions)
   {
     x.y() += Real(1);
   }
@@ -223,12 +223,12 @@ TEST(Place, PutsEveryParticleWhereItIsToldAtRest)
 TEST(Place, RefusesPositionsThatAreNoneAndChangesNothing)
 {
   Simulation simulation = hanging(untearable());
-  const std::vector<Vec3> before = simulation.cloth().state.position;
-  std::vector<Vec3> positions = before;
+  const Vec3Array before = simulation.cloth().state.position;
+  Vec3Array positions = before;
   positions[7].x() = std::numeric_limits<Real>::quiet_NaN();
   EXPECT_THROW(simulation.place(positions), Refusal);
   positions = before;
-  positions.pop_back();
+  positions.resize(positions.size() - 1);
   EXPECT_THROW(simulation.place(positions), Refusal);
   EXPECT_EQ(simulation.cloth().state.position, before);
 }
@@ -333,7 +333,7 @@ TEST(Reset, IsFollowedByTheSameRunAsAtFirst)
     Simulation simulation = hanging(params);
     pullDown(simulation);
     const std::size_t first = run(simulation, 300).size();
-    const std::vector<Vec3> positions = simulation.cloth().state.position;
+    const Vec3Array positions = simulation.cloth().state.position;
 
     simulation.reset();
     pullDown(simulation);

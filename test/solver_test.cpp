@@ -345,7 +345,7 @@ TEST(Xpbd, DoesNotLimitStrain)
 {
   Cloth cloth = makeCloth(hangingTriangle(), { 0, 1 }, cotton(), RestShapeSource::IMPORTED, 0.0);
   cloth.state.position[2].y() = Real(-1);
-  const std::vector<Vec3> before = cloth.state.position;
+  const Vec3Array before = cloth.state.position;
 
   makeSolver(SolverParams())->limitStrain(cloth.state, cloth.springs);
 
@@ -364,7 +364,7 @@ TEST(StrainLimiter, DrawsAnOverlongSpringToTheLimitAndLeavesVelocitiesAlone)
   Cloth cloth = makeCloth(hangingTriangle(), { 0 }, cotton(), RestShapeSource::IMPORTED, 0.0);
   cloth.state.position[2] = Vec3(Real(0.058), Real(-0.119), 0);  // 40 % from 0, compressed from 1
   cloth.state.velocity[2] = Vec3(1, -7, 3);
-  const std::vector<Vec3> velocities = cloth.state.velocity;
+  const Vec3Array velocities = cloth.state.velocity;
   SolverParams params = forceSprings();
   params.max_strain = 0.10;
 
@@ -395,7 +395,7 @@ TEST(StrainLimiter, LeavesWhatIsWithinTheLimitOrCompressed)
 {
   Cloth cloth = makeCloth(hangingTriangle(), {}, cotton(), RestShapeSource::IMPORTED, 0.0);
   cloth.state.position[0].x() = Real(-0.05);
-  const std::vector<Vec3> before = cloth.state.position;
+  const Vec3Array before = cloth.state.position;
 
   makeSolver(forceSprings())->limitStrain(cloth.state, cloth.springs);
 

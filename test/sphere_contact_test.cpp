@@ -171,7 +171,7 @@ TEST(SphereContact, PushesOutOverSeveralStepsWhereASphereIsBornInsideTheCloth)
 
   while (clothDistance(simulation.cloth(), Vec3d(0, -0.5, -0.02)) < 0.0599 && steps < 500)
   {
-    const std::vector<Vec3> before = simulation.cloth().state.position;
+    const Vec3Array before = simulation.cloth().state.position;
     run(simulation, 1);
     ++steps;
     for (std::size_t i = 0; i < before.size(); ++i)
@@ -283,7 +283,7 @@ TEST(Floor, PushesOutWhatStartsBelowItOverSeveralSteps)
   Simulation simulation(upright(flat), edgeOf(flat, "top"), params);
   for (int i = 0; i < 300; ++i)
   {
-    const std::vector<Vec3> before = simulation.cloth().state.position;
+    const Vec3Array before = simulation.cloth().state.position;
     run(simulation, 1);
     for (std::size_t p = 0; p < before.size(); ++p)
     {
@@ -431,7 +431,7 @@ TEST_F(StreamedSpheres, FasterThanTheLimitArePlacedAnewWithoutTouching)
 {
   simulation.setSpheres({ ball(below, 0.01) });
   run(simulation, 1);
-  const std::vector<Vec3> before = simulation.cloth().state.position;
+  const Vec3Array before = simulation.cloth().state.position;
 
   const Vec3d far = above + Vec3d(0, 0, 0.02);  // 65 m/s
   simulation.setSpheres({ ball(far, 0.01) });

@@ -73,7 +73,7 @@ void stir(Cloth& cloth)
 
 void stretchAlongY(Cloth& cloth, double factor)
 {
-  for (Vec3& position : cloth.state.position)
+  for (auto position : cloth.state.position)
   {
     position.y() *= static_cast<Real>(factor);
   }
@@ -957,7 +957,7 @@ TEST(Floor, KeepsEverySpringAndTriangleAboveIt)
     Cloth cloth = clothOf(sheet(8, 8, pattern));
     for (int step = 0; step < 60; ++step)
     {
-      for (Vec3& position : cloth.state.position)
+      for (auto position : cloth.state.position)
       {
         position *= Real(1.05);
       }
@@ -1139,7 +1139,7 @@ testing::AssertionResult endsWhenDrivenApart(Cloth& cloth, std::vector<Grasp>& g
   int quiet = 0;
   for (int step = 0; step < 2000; ++step)
   {
-    for (Vec3& position : cloth.state.position)
+    for (auto position : cloth.state.position)
     {
       position *= Real(1.02);
     }

@@ -294,7 +294,7 @@ TEST(Figure3_17, EveryTearThatRunsOnHandsItsWeaknessToTheFarEnd)
   TearRules rules = rulesOfTheThesis();
   rules.max_tears_per_step = 1;
   Cloth cloth = clothOf(sheet(9, 9, RectanglePattern::IRREGULAR));
-  for (Vec3& position : cloth.state.position)
+  for (auto position : cloth.state.position)
   {
     position.y() *= Real(1.45);
   }

@@ -54,7 +54,7 @@ void ForceSprings::addForces(const ParticleState& state, const std::vector<Sprin
 }
 
 void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
-                           const std::vector<Vec3>& acceleration, double dt)
+                           const Vec3Array& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt / substeps_);
   const auto unseen = [](std::size_t, Real) {};
@@ -109,8 +109,8 @@ void ForceSprings::limitStrain(ParticleState& state, const SpringTable& springs)
     }
     const Real wa = state.inverse_mass[spring.a];
     const Real wb = state.inverse_mass[spring.b];
-    Vec3& a = state.position[spring.a];
-    Vec3& b = state.position[spring.b];
+    auto a = state.position[spring.a];
+    auto b = state.position[spring.b];
     const Vec3 d = b - a;
     const Real limit = most * spring.rest;
     const Real squared = d.squaredNorm();

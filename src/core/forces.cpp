@@ -9,7 +9,7 @@ namespace cloth
 namespace
 {
 
-void addWind(const Cloth& cloth, const Environment& environment, std::vector<Vec3>& acceleration)
+void addWind(const Cloth& cloth, const Environment& environment, Vec3Array& acceleration)
 {
   const Vec3 wind = environment.wind.cast<Real>();
   const auto drag = static_cast<Real>(environment.wind_drag);
@@ -45,7 +45,7 @@ void addWind(const Cloth& cloth, const Environment& environment, std::vector<Vec
 }  // namespace
 
 void outerAccelerations(const Cloth& cloth, const Environment& environment,
-                        std::vector<Vec3>& acceleration)
+                        Vec3Array& acceleration)
 {
   const ParticleState& state = cloth.state;
   const Vec3 gravity = environment.gravity.cast<Real>();

@@ -6,9 +6,9 @@ namespace cloth
 
 void ParticleState::resize(int particles)
 {
-  position.resize(particles, Vec3::Zero());
-  velocity.resize(particles, Vec3::Zero());
-  previous.resize(particles, Vec3::Zero());
+  position.resize(particles);
+  velocity.resize(particles);
+  previous.resize(particles);
   inverse_mass.resize(particles, Real(0));
 }
 

@@ -519,7 +519,7 @@ std::uint64_t Simulation::throwAtCloth(SphereSource source, std::uint64_t id, do
   return spheres_.throwAgain(source, id, speed * way.normalized());
 }
 
-void Simulation::place(const std::vector<Vec3>& positions)
+void Simulation::place(const Vec3Array& positions)
 {
   std::vector<std::string> found;
   if (positions.size() != cloth_.state.position.size())
@@ -537,7 +537,7 @@ void Simulation::place(const std::vector<Vec3>& positions)
   refuseIf(found);
   keepBalance();
   cloth_.state.position = positions;
-  std::fill(cloth_.state.velocity.begin(), cloth_.state.velocity.end(), Vec3::Zero());
+  cloth_.state.velocity.setZero();
 }
 
 Snapshot Simulation::snapshot() const

@@ -241,7 +241,7 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
   for (int k = 0; k < 3; ++k)
   {
     const Real share = contact.weights[k] * state.inverse_mass[p[k].index] / yielding;
-    Vec3& corner_velocity = state.velocity[p[k].index];
+    auto corner_velocity = state.velocity[p[k].index];
     const Vec3 velocity_before = corner_velocity;
     state.position[p[k].index] += share * shift;
     corner_velocity += share * change;

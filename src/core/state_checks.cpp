@@ -39,8 +39,8 @@ void refuseUnless(bool condition, const Words&... problem)
   }
 }
 
-template <class T>
-void refuseOtherSize(const std::vector<T>& values, int count, const std::string& name)
+template <class Values>
+void refuseOtherSize(const Values& values, int count, const std::string& name)
 {
   refuseUnless(values.size() == static_cast<std::size_t>(count), name, " has ", values.size(),
                " values, must have ", count);

@@ -22,8 +22,9 @@ public:
     std::memcpy(&bits, &word, sizeof bits);
     add(bits);
   }
-  void add(const Vec3& v)
+  void add(const Vec3Array::ConstReference& element)
   {
+    const Vec3 v = element;
     std::uint32_t bits[3];
     std::memcpy(bits, v.data(), sizeof bits);
     add(static_cast<std::uint64_t>(bits[0]) << 32 | bits[1]);

@@ -89,7 +89,7 @@ void addSprings(const Cloth& cloth, Surface& surface)
 
 void addParticles(const Cloth& cloth, Surface& surface)
 {
-  surface.position = cloth.state.position;
+  surface.position = cloth.state.position.toVectors();
   surface.parents = cloth.damage.parents;
   for (int i = 0; i < cloth.mesh.particleCount(); ++i)
   {

@@ -11,7 +11,7 @@ namespace
 /// Adds a pull to those ends of a spring that do not move. Not inlined: few springs have any, and
 /// the sweep is to stay lean.
 [[gnu::noinline]] void noteHeld(const SpringLaw& spring, const ParticleState& state,
-                                const Vec3& pull, std::vector<Vec3>& held)
+                                const Vec3& pull, Vec3Array& held)
 {
   if (state.inverse_mass[spring.a] == 0)
   {
@@ -30,7 +30,7 @@ namespace
 /// @param held gathers the pulls on particles that do not move, to be divided by dt^2 [kg m]
 template <class See>
 void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Real dt,
-           std::vector<Vec3>& displacement, std::vector<Vec3>& held, const See& see)
+           Vec3Array& displacement, Vec3Array& held, const See& see)
 {
   for (std::size_t i = 0; i < springs.size(); ++i)
   {
@@ -42,8 +42,8 @@ void solve(const ParticleState& state, const std::vector<SpringLaw>& springs, Re
     const Real wa = state.inverse_mass[spring.a];
     const Real wb = state.inverse_mass[spring.b];
     const Real w = wa + wb;
-    Vec3& a = displacement[spring.a];
-    Vec3& b = displacement[spring.b];
+    auto a = displacement[spring.a];
+    auto b = displacement[spring.b];
     const Vec3 moved = b - a;
     const Vec3 before = state.previous[spring.b] - state.previous[spring.a];
     const Vec3 d = before + moved;
@@ -77,7 +77,7 @@ std::unique_ptr<Solver> XpbdSolver::clone() const
 }
 
 void XpbdSolver::advance(ParticleState& state, const SpringTable& springs,
-                         const std::vector<Vec3>& acceleration, double dt)
+                         const Vec3Array& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt);
   displacement_.resize(state.size());

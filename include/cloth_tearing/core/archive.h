@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cloth_tearing/core/types.h"
+#include "cloth_tearing/core/vec3_array.h"
 
 namespace cloth
 {
@@ -106,6 +107,8 @@ private:
       write(value);
     }
   }
+
+  void write(const Vec3Array& vectors) { write(vectors.toVectors()); }
 
   void write(const std::string& text)
   {
@@ -258,6 +261,13 @@ private:
     {
       read(values.emplace_back());
     }
+  }
+
+  void read(Vec3Array& vectors)
+  {
+    std::vector<Vec3> read_vectors;
+    read(read_vectors);
+    vectors = read_vectors;
   }
 
   void read(std::string& text)

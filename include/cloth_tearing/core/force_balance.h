@@ -31,8 +31,8 @@ struct StepForces
 {
   const Cloth& cloth;
   const Solver& solver;
-  const std::vector<Vec3>& acceleration;     ///< by gravity and air, by particle [m/s^2]
-  const std::vector<Vec3>& velocity_before;  ///< when the step began, by particle [m/s]
+  const Vec3Array& acceleration;     ///< by gravity and air, by particle [m/s^2]
+  const Vec3Array& velocity_before;  ///< when the step began, by particle [m/s]
   Vec3d gravity;                             ///< [m/s^2]
   Vec3d contact;                             ///< impulse of spheres and floor on the cloth [N s]
   double dt;                                 ///< [s]

@@ -18,7 +18,7 @@ public:
 
   std::unique_ptr<Solver> clone() const override;
   void advance(ParticleState& state, const SpringTable& springs,
-               const std::vector<Vec3>& acceleration, double dt) override;
+               const Vec3Array& acceleration, double dt) override;
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
   Vec3d addedImpulse() const override { return added_impulse_; }
   int limited() const override { return limited_; }
@@ -36,7 +36,7 @@ private:
   int substeps_ = 1;
   int limited_ = 0;                       ///< springs that limitStrain() drew together
   Vec3d added_impulse_ = Vec3d::Zero();   ///< on slivers treated as heavier than they are [N s]
-  std::vector<Vec3> force_;               ///< by particle [N]
+  Vec3Array force_;               ///< by particle [N]
   std::vector<Real> inverse_mass_limit_;  ///< by particle [1/kg]: lighter ones are treated as this
   std::vector<double> stiffness_sum_;     ///< by particle, scratch of checkStability [N/m]
   std::vector<double> damping_sum_;       ///< the same [N s/m]

@@ -14,6 +14,6 @@ namespace cloth
 /// against it (Provot 1995). Held particles get it too: it does not move them, but whoever holds
 /// them feels it.
 void outerAccelerations(const Cloth& cloth, const Environment& environment,
-                        std::vector<Vec3>& acceleration);
+                        Vec3Array& acceleration);
 
 }  // namespace cloth

@@ -236,7 +236,7 @@ public:
 
   /// Puts every particle where `positions` [m] says, at rest: to show where cloth belongs.
   /// @throws Refusal if there are not as many positions as particles, or one is out of range
-  void place(const std::vector<Vec3>& positions);
+  void place(const Vec3Array& positions);
 
   const SimulationParams& params() const { return params_; }
   const Cloth& cloth() const { return cloth_; }
@@ -313,7 +313,7 @@ private:
   /// What a step may change before it tears, to go back to if the step goes wrong.
   struct Undo
   {
-    std::vector<Vec3> velocity;
+    Vec3Array velocity;
     std::vector<Grasp> grasps;
     std::vector<Sphere> spheres;
   };
@@ -353,7 +353,7 @@ private:
   LoosePieces loose_pieces_;
   Grippers grippers_;
   SphereSet spheres_;
-  std::vector<Vec3> acceleration_;  ///< scratch of a step [m/s^2]
+  Vec3Array acceleration_;  ///< scratch of a step [m/s^2]
   Undo undo_;
   Stability stability_;
   EventLog<TearEvent> log_;

@@ -53,7 +53,7 @@ public:
   /// One symplectic step of `dt` [s] from state.previous, the positions at its start; particles
   /// of inverse mass 0 are where they are to end.
   virtual void advance(ParticleState& state, const SpringTable& springs,
-                       const std::vector<Vec3>& acceleration, double dt) = 0;
+                       const Vec3Array& acceleration, double dt) = 0;
 
   /// Draws overlong structural springs together, positions only (2.1.1, Provot 1995).
   /// Not every solver needs it.
@@ -121,7 +121,7 @@ protected:
     }
   }
 
-  std::vector<Vec3> held_;   ///< by particle, of those of inverse mass 0: see heldForce()
+  Vec3Array held_;   ///< by particle, of those of inverse mass 0: see heldForce()
   double held_scale_ = 0.0;  ///< to [N]
 
 private:

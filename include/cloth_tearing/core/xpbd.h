@@ -17,12 +17,12 @@ class XpbdSolver : public Solver
 public:
   std::unique_ptr<Solver> clone() const override;
   void advance(ParticleState& state, const SpringTable& springs,
-               const std::vector<Vec3>& acceleration, double dt) override;
+               const Vec3Array& acceleration, double dt) override;
   double stiffnessNumber(const ParticleState& state, const SpringTable& springs,
                          double dt) const override;
 
 private:
-  std::vector<Vec3> displacement_;  ///< by particle, scratch of a step [m]
+  Vec3Array displacement_;  ///< by particle, scratch of a step [m]
 };
 
 }  // namespace cloth
