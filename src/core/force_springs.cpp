@@ -59,7 +59,7 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
   const auto h = static_cast<Real>(dt / substeps_);
   const auto unseen = [](std::size_t, Real) {};
   const auto seen = [&](std::size_t i, Real squared)
-  { note(i, springs.structural[i].rest, squared); };
+  { noteLong(i, springs.structural[i].rest, squared); };
   clearNotes(springs.structural.size());
   held_.assign(state.size(), Vec3::Zero());
   held_scale_ = 1.0 / substeps_;

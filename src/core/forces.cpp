@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_tearing/core/kernels.h"
+
 namespace cloth
 {
 namespace
@@ -44,16 +46,16 @@ void addWind(const Cloth& cloth, const Environment& environment, Vec3Array& acce
 
 }  // namespace
 
-void outerAccelerations(const Cloth& cloth, const Environment& environment,
-                        Vec3Array& acceleration)
+void outerAccelerations(const Cloth& cloth, const Environment& environment, Vec3Array& acceleration)
 {
   const ParticleState& state = cloth.state;
   const Vec3 gravity = environment.gravity.cast<Real>();
   const auto friction = static_cast<Real>(environment.air_friction);
   acceleration.resize(state.size());
-  for (int i = 0; i < state.size(); ++i)
+  for (int k = 0; k < 3; ++k)
   {
-    acceleration[i] = gravity - friction * state.velocity[i];
+    kernels::best().accelerate(acceleration.axis(k), state.velocity.axis(k), gravity[k], friction,
+                               state.size());
   }
   if (environment.wind_drag > 0.0)
   {

@@ -21,7 +21,7 @@ void putToRest(Cloth& cloth, const std::vector<ParticleId>& piece)
                                    for (SpringId s : cloth.mesh.triangle(t).springs)
                                    {
                                      cloth.springs.release(s);
-                                     cloth.springs.bend_shear[s.index] = SpringLaw{};
+                                     cloth.springs.releaseBendShear(s);
                                    }
                                  });
   }

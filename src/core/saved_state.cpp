@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr char MAGIC[] = { 'C', 'L', 'O', 'T', 'H', '\r', '\n', '\x1a' };  // no text file
-constexpr std::uint32_t STATE_FORMAT = 3;
+constexpr std::uint32_t STATE_FORMAT = 4;
 constexpr std::size_t CHECKSUM_SIZE = sizeof(std::uint64_t);
 
 /// What the state does not know of itself.
@@ -120,6 +120,7 @@ Simulation Simulation::restored(const std::string& bytes) const
   refuseUnsound(next.cloth_, next.grippers_.all());
   refuseUnsound(next.spheres_.all());
 
+  next.solver_->shareWork(workers_);
   next.tearing_ = Tearing(next.params_.tearing);
   next.watchSprings();
   next.start_time_ = time();

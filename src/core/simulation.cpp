@@ -8,6 +8,7 @@
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/flush_subnormals.h"
 #include "cloth_tearing/core/forces.h"
+#include "cloth_tearing/core/kernels.h"
 #include "cloth_tearing/core/state_hash.h"
 
 namespace cloth
@@ -113,6 +114,7 @@ std::vector<std::string> problems(const SimulationParams& params)
   check(found, "max_gripper_turn [rad/s]", params.max_gripper_turn, Range::aboveUpTo(0.0, 100.0));
   check(found, "max_speed [m/s]", params.max_speed, Range::aboveUpTo(0.0, 1e4));
   check(found, "runaway_strain [-]", params.runaway_strain, Range::aboveUpTo(0.0, 1e4));
+  check(found, "threads", params.threads, Range::between(0, 256));
   check(found, "tear_log_size", params.tear_log_size, Range::between(1, 10000000));
   return found;
 }
@@ -129,6 +131,9 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
     , grasp_log_(params.tear_log_size)
     , pull_log_(ENDED_PULLS)
 {
+  const int threads = threadsFor(params.threads, untorn_.state.size());
+  workers_ = threads > 1 ? std::make_shared<WorkerPool>(threads) : nullptr;
+  solver_->shareWork(workers_);
   watchSprings();
   stability_ = findStability();
   start_stability_ = stability_;
@@ -186,6 +191,8 @@ StepReport Simulation::step(StepObserver* observer)
   {
     append(report.notes, loose_pieces_.rest(cloth_, params_.contact));
   }
+  solver_->follow(cloth_.springs, cloth_.state.size());
+  cloth_.springs.changes.forget();
   return report;
 }
 
@@ -195,6 +202,12 @@ double Simulation::scan()
   const bool pushed = !spheres_.all().empty() || params_.contact.floor;
   return pushed || !params_.tearing.enabled ? tearing_.scan(cloth_)
                                             : tearing_.scan(cloth_, solver_->stretched());
+}
+
+void Simulation::makeSolver()
+{
+  solver_ = SolverHandle(params_.solver);
+  solver_->shareWork(workers_);
 }
 
 void Simulation::watchSprings()
@@ -227,6 +240,12 @@ std::string Simulation::findFault(double max_strain) const
            " exceeds runaway_strain = " + text(params_.runaway_strain) + ": the step was undone";
   }
   const auto limit = static_cast<Real>(params_.max_speed * params_.max_speed);
+  const ParticleState& state = cloth_.state;
+  if (kernels::best().calm(state.position.axes().data(), state.velocity.axes().data(), limit,
+                           state.size()))
+  {
+    return {};
+  }
   for (int i = 0; i < cloth_.state.size(); ++i)
   {
     const Real squared = cloth_.state.velocity[i].squaredNorm();
@@ -368,7 +387,7 @@ void Simulation::startOver(const std::string& why)
   grippers_.releaseAll(cloth_, why);
   publish();
   cloth_ = untorn_;
-  solver_ = SolverHandle(params_.solver);
+  makeSolver();
   watchSprings();
   stability_ = findStability();
   spheres_.clear();

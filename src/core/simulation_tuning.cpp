@@ -154,7 +154,7 @@ std::vector<std::string> Simulation::tune(const Tuning& tuning)
   std::vector<std::string> notes;
   if (other_motion)
   {
-    solver_ = SolverHandle(params.solver);
+    makeSolver();
     start_stability_ = stability;
     stability_ = stability;
     notes = startNotes();
@@ -178,6 +178,7 @@ void Simulation::takeCloth(Simulation other)
   params_ = std::move(other.params_);
   untorn_ = std::move(other.untorn_);
   start_stability_ = other.start_stability_;
+  workers_ = std::move(other.workers_);
   tearing_ = Tearing(params_.tearing);
   loose_pieces_ = {};
   contact_ = {};

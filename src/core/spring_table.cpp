@@ -48,6 +48,22 @@ void refreshSpring(SpringTable& table, const Mesh& mesh, const RestShape& rest,
 
 }  // namespace
 
+void ChangeLog::forget()
+{
+  forgotten_ += springs_.size();
+  springs_.clear();
+}
+
+bool ChangeLog::since(std::uint64_t seen, std::vector<int>& springs) const
+{
+  if (seen < forgotten_ || seen > count())
+  {
+    return false;
+  }
+  springs.assign(springs_.begin() + static_cast<std::ptrdiff_t>(seen - forgotten_), springs_.end());
+  return true;
+}
+
 double adjacentArea(const Mesh& mesh, const RestShape& rest, SpringId s)
 {
   double area = 0.0;
@@ -68,6 +84,7 @@ void SpringTable::refresh(const Mesh& mesh, const RestShape& rest, const Materia
     for (SpringId s : mesh.triangle(t).springs)
     {
       refreshSpring(*this, mesh, rest, material, s);
+      changes.add(s);
     }
   }
 }
@@ -76,6 +93,13 @@ void SpringTable::release(SpringId s)
 {
   structural[s.index].a = -1;
   structural[s.index].b = -1;
+  changes.add(s);
+}
+
+void SpringTable::releaseBendShear(SpringId s)
+{
+  bend_shear[s.index] = SpringLaw{};
+  changes.add(s);
 }
 
 SpringTable makeSpringTable(const Mesh& mesh, const RestShape& rest, const Material& material)

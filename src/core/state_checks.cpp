@@ -8,6 +8,7 @@
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/core/spring_blocks.h"
 
 namespace cloth
 {
@@ -234,6 +235,10 @@ void refuseUnsound(const Cloth& cloth, const SolverMemory& memory, const SolverP
   refuseOtherSize(memory.inverse_mass_limit, limits ? cloth.mesh.particleCount() : 0,
                   "solver/inverse_mass_limit");
   refuseSmall(memory.inverse_mass_limit, true, "solver/inverse_mass_limit");
+  if (!memory.blocks.empty())
+  {
+    SpringBlocks(cloth.springs, cloth.mesh.particleCount(), memory.blocks);  // which refuses
+  }
 }
 
 }  // namespace cloth

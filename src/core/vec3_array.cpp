@@ -57,7 +57,8 @@ bool Vec3Array::operator==(const Vec3Array& other) const
   return size_ == other.size_ && std::equal(begin(), end(), other.begin());
 }
 
-/// Makes room for so many, twice as much as before if it takes more: torn cloth grows in small steps.
+/// Makes room for so many, twice as much as before if it takes more: torn cloth grows in small
+/// steps.
 void Vec3Array::grow(std::size_t size)
 {
   if (size <= pitch_)

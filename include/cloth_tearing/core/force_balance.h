@@ -33,9 +33,9 @@ struct StepForces
   const Solver& solver;
   const Vec3Array& acceleration;     ///< by gravity and air, by particle [m/s^2]
   const Vec3Array& velocity_before;  ///< when the step began, by particle [m/s]
-  Vec3d gravity;                             ///< [m/s^2]
-  Vec3d contact;                             ///< impulse of spheres and floor on the cloth [N s]
-  double dt;                                 ///< [s]
+  Vec3d gravity;                     ///< [m/s^2]
+  Vec3d contact;                     ///< impulse of spheres and floor on the cloth [N s]
+  double dt;                         ///< [s]
 
   /// What whoever holds the particle exerts on it [N].
   Vec3d byHolder(int particle) const;

@@ -17,14 +17,14 @@ public:
   explicit ForceSprings(const SolverParams& params);
 
   std::unique_ptr<Solver> clone() const override;
-  void advance(ParticleState& state, const SpringTable& springs,
-               const Vec3Array& acceleration, double dt) override;
+  void advance(ParticleState& state, const SpringTable& springs, const Vec3Array& acceleration,
+               double dt) override;
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
   Vec3d addedImpulse() const override { return added_impulse_; }
   int limited() const override { return limited_; }
   Stability checkStability(const ParticleState& state, const SpringTable& springs, double dt,
                            double air_rate) override;
-  SolverMemory memory() const override { return { substeps_, inverse_mass_limit_ }; }
+  SolverMemory memory() const override { return { substeps_, inverse_mass_limit_, {} }; }
   void recall(const SolverMemory& memory) override;
 
 private:
@@ -36,7 +36,7 @@ private:
   int substeps_ = 1;
   int limited_ = 0;                       ///< springs that limitStrain() drew together
   Vec3d added_impulse_ = Vec3d::Zero();   ///< on slivers treated as heavier than they are [N s]
-  Vec3Array force_;               ///< by particle [N]
+  Vec3Array force_;                       ///< by particle [N]
   std::vector<Real> inverse_mass_limit_;  ///< by particle [1/kg]: lighter ones are treated as this
   std::vector<double> stiffness_sum_;     ///< by particle, scratch of checkStability [N/m]
   std::vector<double> damping_sum_;       ///< the same [N s/m]

@@ -45,7 +45,8 @@ struct SimulationParams
   double max_gripper_turn = 20.0;    ///< of the same [rad/s], > 0
   double max_speed = 200.0;          ///< of a particle; beyond is a runaway [m/s], > 0
   double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
-  int tear_log_size = 100000;    ///< tears kept for those who ask later, and events of grasps, >= 1
+  int threads = 0;             ///< that share a step; 0 = as many as pay off. The bits are the same
+  int tear_log_size = 100000;  ///< tears kept for those who ask later, and events of grasps, >= 1
   std::uint64_t life = 0;  ///< names the simulation and its copies among all others: see restored()
   std::string place;       ///< where the cloth frame is, in words: see restored()
 
@@ -326,6 +327,7 @@ private:
     EventHistory ours;
   };
 
+  void makeSolver();
   void watchSprings();
   double scan();
   void remember();
@@ -368,6 +370,7 @@ private:
   std::uint64_t start_step_ = 0;                   ///< with which the epoch began
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
+  std::shared_ptr<WorkerPool> workers_;  ///< of the solver; none: it works alone
 };
 
 }  // namespace cloth

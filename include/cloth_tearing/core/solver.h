@@ -4,10 +4,12 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cloth_tearing/core/particle_state.h"
 #include "cloth_tearing/core/spring_table.h"
+#include "cloth_tearing/core/worker_pool.h"
 
 namespace cloth
 {
@@ -40,6 +42,7 @@ struct SolverMemory
 {
   int substeps = 1;
   std::vector<Real> inverse_mass_limit;  ///< by particle [1/kg], > 0; empty where it has none
+  std::vector<int> blocks;  ///< see SpringBlocks::toNumbers(); empty: as if it began now
 };
 
 /// Moves particles under springs and outer accelerations. Knows nothing of tearing: it is given
@@ -58,6 +61,13 @@ public:
   /// Draws overlong structural springs together, positions only (2.1.1, Provot 1995).
   /// Not every solver needs it.
   virtual void limitStrain(ParticleState& /*state*/, const SpringTable& /*springs*/) {}
+
+  /// Takes over changes of the springs, so that what it carries fits them. To be told after tears;
+  /// advance() would do it as well.
+  virtual void follow(const SpringTable& /*springs*/, int /*particles*/) {}
+
+  /// Shares its work among these threads from now on; none: does it alone. The bits are the same.
+  void shareWork(std::shared_ptr<WorkerPool> workers) { workers_ = std::move(workers); }
 
   /// From now on advance() notes every structural spring that is stretched by more than `strain`
   /// [-] when the step begins, and may note others that are later in the step. It sees all lengths
@@ -113,7 +123,7 @@ protected:
   }
 
   /// Notes a spring if it is long; `squared` is its squared length [m^2].
-  void note(std::size_t spring, Real rest, Real squared)
+  void noteLong(std::size_t spring, Real rest, Real squared)
   {
     if (!(squared <= watched_ * (rest * rest)))  // a NaN must not hide
     {
@@ -121,12 +131,29 @@ protected:
     }
   }
 
-  Vec3Array held_;   ///< by particle, of those of inverse mass 0: see heldForce()
+  Vec3Array held_;           ///< by particle, of those of inverse mass 0: see heldForce()
   double held_scale_ = 0.0;  ///< to [N]
 
-private:
-  std::vector<int> stretched_;
   Real watched_ = std::numeric_limits<Real>::max();  ///< squared length over squared rest length
+  /// Calls work(0), ... work(count - 1), side by side if it can.
+  template <class Work>
+  void shared(int count, const Work& work) const
+  {
+    if (workers_ && count > 1)
+    {
+      workers_->run(count, work);
+      return;
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      work(i);
+    }
+  }
+
+  std::vector<int> stretched_;
+
+private:
+  std::shared_ptr<WorkerPool> workers_;
 };
 
 std::unique_ptr<Solver> makeSolver(const SolverParams& params);

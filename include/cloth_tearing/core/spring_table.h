@@ -1,6 +1,7 @@
 // The springs as the solvers stream through them.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "cloth_tearing/core/material.h"
@@ -22,6 +23,26 @@ struct SpringLaw
   bool active() const { return a >= 0; }
 };
 
+/// Which springs were written, one after the other, for those who keep something by spring.
+class ChangeLog
+{
+public:
+  void add(SpringId s) { springs_.push_back(s.index); }
+
+  /// Everybody has followed: those so far are not kept any more.
+  void forget();
+
+  std::uint64_t count() const { return forgotten_ + springs_.size(); }
+
+  /// Those after the first `seen`, by SpringId, maybe more than once.
+  /// @return false if they are not known any more
+  bool since(std::uint64_t seen, std::vector<int>& springs) const;
+
+private:
+  std::vector<int> springs_;
+  std::uint64_t forgotten_ = 0;
+};
+
 /// Structural and bend-shear springs, both indexed by SpringId: a bend-shear spring belongs to the
 /// interior spring that it crosses (3.1.2).
 ///
@@ -30,13 +51,17 @@ struct SpringTable
 {
   std::vector<SpringLaw> structural;
   std::vector<SpringLaw> bend_shear;
+  ChangeLog changes;
 
   /// Writes every spring of `triangles` again.
   void refresh(const Mesh& mesh, const RestShape& rest, const Material& material,
                const std::vector<TriangleId>& triangles);
 
-  /// The spring carries no load any more.
+  /// The structural spring carries no load any more.
   void release(SpringId s);
+
+  /// The bend-shear spring that crosses `s` carries no load any more.
+  void releaseBendShear(SpringId s);
 };
 
 SpringTable makeSpringTable(const Mesh& mesh, const RestShape& rest, const Material& material);

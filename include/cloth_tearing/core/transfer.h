@@ -129,7 +129,7 @@ void transfer(Archive& archive, SimulationParams& params)
 {
   auto& [material, environment, solver, tearing, strength, contact, rest_shape, max_grasp_distance,
          grasp_force_filter, max_gripper_speed, max_gripper_turn, max_speed, runaway_strain,
-         tear_log_size, life, place] = params;
+         threads, tear_log_size, life, place] = params;
   archive("material", material);
   archive("environment", environment);
   archive("solver", solver);
@@ -210,7 +210,8 @@ void transfer(Archive& archive, SpringLaw& law)
 template <class Archive>
 void transfer(Archive& archive, SpringTable& springs)
 {
-  auto& [structural, bend_shear] = springs;
+  auto& [structural, bend_shear, changes] = springs;
+  static_cast<void>(changes);  // a solver that is restored looks at all springs
   archive("structural", structural);
   archive("bend_shear", bend_shear);
 }
@@ -400,9 +401,10 @@ void transfer(Archive& archive, Stability& stability)
 template <class Archive>
 void transfer(Archive& archive, SolverMemory& memory)
 {
-  auto& [substeps, inverse_mass_limit] = memory;
+  auto& [substeps, inverse_mass_limit, blocks] = memory;
   archive("substeps", substeps);
   archive("inverse_mass_limit", inverse_mass_limit);
+  archive("blocks", blocks);
 }
 
 // -- what happened --------------------------------------------------------------------------------
@@ -466,7 +468,7 @@ void transfer(Archive& archive, Simulation& simulation)
 {
   auto& [params, untorn, cloth, solver, contact, tearing, loose_pieces, grippers, spheres,
          acceleration, undo, stability, log, grasp_log, pull_log, balance, history, adopted, tears,
-         start_stability, start_time, start_step, step, epoch] = simulation;
+         start_stability, start_time, start_step, step, epoch, workers] = simulation;
   archive("params", params);
   archive("untorn", untorn);
   archive("cloth", cloth);

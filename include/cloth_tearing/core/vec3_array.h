@@ -1,6 +1,7 @@
 // Vectors of particles, their x, y and z in an array each.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <vector>
@@ -47,7 +48,8 @@ public:
 
   Vec3Array() = default;
   Vec3Array(std::size_t size, const Vec3& value) { assign(size, value); }
-  Vec3Array(const std::vector<Vec3>& vectors);  // NOLINT(google-explicit-constructor): the same data
+  Vec3Array(
+      const std::vector<Vec3>& vectors);  // NOLINT(google-explicit-constructor): the same data
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -64,7 +66,12 @@ public:
 
   /// All x (0), y (1) or z (2).
   Real* axis(int axis) { return data_.data() + static_cast<std::size_t>(axis) * pitch_; }
-  const Real* axis(int axis) const { return data_.data() + static_cast<std::size_t>(axis) * pitch_; }
+  const Real* axis(int axis) const
+  {
+    return data_.data() + static_cast<std::size_t>(axis) * pitch_;
+  }
+
+  std::array<const Real*, 3> axes() const { return { { axis(0), axis(1), axis(2) } }; }
 
   /// New elements are zero.
   void resize(std::size_t size);

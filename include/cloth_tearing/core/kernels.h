@@ -1,0 +1,112 @@
+// The loops that take a step's time, written for vector registers: plain numbers and pointers, so
+// that they can be compiled for several instruction sets side by side.
+#pragma once
+
+#include <cstddef>
+
+namespace cloth
+{
+namespace kernels
+{
+
+/// So many springs make a block, whatever the width of a register. No two springs of a block share
+/// a particle, so that no result depends on that width.
+constexpr int LANES = 16;
+
+/// What the springs of a block are, each array by lane. A lane without a spring has no stiffness,
+/// no damping and the largest limit.
+struct alignas(64) Lanes
+{
+  float rest[LANES];       ///< rest length [m]
+  float stiffness[LANES];  ///< [N/m]
+  float damping[LANES];    ///< [N s/m]
+  float limit[LANES];      ///< squared length above which the spring is noted [m^2]
+};
+
+/// A block whose springs join particles `a`, `a` + 1, ... to `b`, `b` + 1, ...: lane by lane.
+struct RunEnds
+{
+  int a;
+  int b;
+};
+
+/// A block whose springs join any particles: indices of their records. A lane without a spring has
+/// that of a record that is no particle's twice.
+struct RecordEnds
+{
+  int a[LANES];
+  int b[LANES];
+};
+
+/// What springs that lie in no run read of a particle and write to it, in one piece.
+struct alignas(16) Record
+{
+  float x;
+  float y;
+  float z;
+  float w;
+};
+
+/// The particles as the sweep sees them. `way` is how far each has moved since the step began.
+struct Particles
+{
+  float* way[3];              ///< x, y, z [m]
+  const float* start[3];      ///< where the step began [m]
+  const float* inverse_mass;  ///< [1/kg]
+  float* held[3];             ///< sums up the pulls on those of inverse mass 0 [kg m]
+};
+
+/// A block of which some springs are longer than their limits; a bit for each lane.
+struct Note
+{
+  int block;
+  unsigned lanes;
+};
+
+struct Records
+{
+  Record* way;  ///< w: inverse mass
+  const Record* start;
+  const int* particle;  ///< of each record
+};
+
+/// The loops for one instruction set.
+struct Set
+{
+  const char* name;
+
+  /// Solves blocks one after the other (Macklin et al. 2016, eq. 26, one sweep).
+  /// @param notes has room for one of each block
+  /// @return how many were written
+  int (*sweep_runs)(const Particles& particles, const RunEnds* ends, const Lanes* lanes, int count,
+                    float dt, Note* notes);
+  int (*sweep_records)(const Records& records, float* const held[3], const RecordEnds* ends,
+                       const Lanes* lanes, int count, float dt, Note* notes);
+
+  /// acceleration = outer - friction * velocity for `count` numbers of one axis.
+  void (*accelerate)(float* acceleration, const float* velocity, float outer, float friction,
+                     int count);
+
+  /// Whether all particles have places that are numbers and squared speeds of at most `limit`.
+  bool (*calm)(const float* const position[3], const float* const velocity[3], float limit,
+               int count);
+
+  /// way = dt (velocity + dt acceleration) for `count` numbers of one axis, where inverse mass is
+  /// above 0; the others have moved from `start` to `position`.
+  void (*predict)(float* way, const float* velocity, const float* acceleration,
+                  const float* inverse_mass, const float* start, const float* position, float dt,
+                  int count);
+  /// position = start + way, velocity = way / dt where inverse mass is above 0.
+  void (*finish)(const float* way, const float* start, const float* inverse_mass, float dt,
+                 float* position, float* velocity, int count);
+};
+
+/// The fastest that this processor runs. The environment variable CLOTH_TEARING_SIMD may name a
+/// plainer one.
+const Set& best();
+
+/// All that this processor runs, the plainest first.
+std::size_t available(const Set* const*& sets);
+
+}  // namespace kernels
+}  // namespace cloth

@@ -1,0 +1,477 @@
+// The loops of kernels.h. Included once for each instruction set, into a namespace of its own.
+
+// NOLINTBEGIN
+
+using Vector = float __attribute__((vector_size(REGISTER)));
+using Mask = int __attribute__((vector_size(REGISTER)));
+using Unaligned = float __attribute__((vector_size(REGISTER), aligned(4), may_alias));
+using UnalignedMask = int __attribute__((vector_size(REGISTER), aligned(4), may_alias));
+constexpr int WIDTH = REGISTER / static_cast<int>(sizeof(float));
+
+inline Vector load(const float* from)
+{
+  return *reinterpret_cast<const Unaligned*>(from);
+}
+
+inline void store(float* to, Vector values)
+{
+  *reinterpret_cast<Unaligned*>(to) = values;
+}
+
+#if defined(__AVX512F__)
+
+inline Vector root(Vector x)
+{
+  return (Vector)_mm512_sqrt_ps((__m512)x);
+}
+
+inline bool any(Mask mask)
+{
+  return _mm512_test_epi32_mask((__m512i)mask, (__m512i)mask) != 0;
+}
+
+#elif defined(__AVX2__)
+
+inline Vector root(Vector x)
+{
+  return (Vector)_mm256_sqrt_ps((__m256)x);
+}
+
+inline bool any(Mask mask)
+{
+  return _mm256_movemask_ps((__m256)mask) != 0;
+}
+
+#elif defined(__SSE2__)
+
+inline Vector root(Vector x)
+{
+  return (Vector)_mm_sqrt_ps((__m128)x);
+}
+
+inline bool any(Mask mask)
+{
+  return _mm_movemask_ps((__m128)mask) != 0;
+}
+
+#else
+
+inline Vector root(Vector x)
+{
+  Vector y;
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    y[i] = __builtin_sqrtf(x[i]);
+  }
+  return y;
+}
+
+inline bool any(Mask mask)
+{
+  int all = 0;
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    all |= mask[i];
+  }
+  return all != 0;
+}
+
+#endif
+
+/// The ends of springs, one in each lane.
+struct End
+{
+  Vector x, y, z;
+};
+
+inline End operator-(const End& a, const End& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+inline Vector dot(const End& a, const End& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Adds `pull * d`: the way that it moves a particle of that much inverse mass.
+inline End moved(const End& way, Vector pull, const End& d)
+{
+  return { way.x + pull * d.x, way.y + pull * d.y, way.z + pull * d.z };
+}
+
+struct Pull
+{
+  End d;          ///< from end to end
+  Vector factor;  ///< what draws the ends together, by d and each one's inverse mass
+  Mask over;      ///< longer than the limit, when the step began or now
+  Mask held;      ///< at least one end does not move
+};
+
+/// Lengths and speeds come from ways, not from differences of places: these are too coarse for a
+/// short step.
+inline Pull pullOf(const End& way_a, const End& way_b, const End& start_a, const End& start_b,
+                   Vector wa, Vector wb, const Lanes& lanes, int lane, float dt)
+{
+  const Vector zero = Vector{};
+  const End moved = way_b - way_a;
+  const End before = start_b - start_a;
+  const End d = { before.x + moved.x, before.y + moved.y, before.z + moved.z };
+  const Vector squared = dot(d, d);
+  const Vector squared_before = dot(before, before);
+  const Vector stiffness = load(lanes.stiffness + lane) * (dt * dt);
+  const Vector damping = load(lanes.damping + lane) * dt;
+
+  // Of the length l: lambda / l, where lambda is (stiffness (l - rest) + damping moved d / l) over
+  // (stiffness + damping) w + 1; one division for all.
+  const Vector length = root(squared);
+  const Vector stretch = length * (length - load(lanes.rest + lane));
+  const Vector above = stiffness * stretch + damping * dot(d, moved);
+  const Vector below = squared * ((stiffness + damping) * (wa + wb) + 1.0f);
+
+  Pull pull;
+  pull.d = d;
+  pull.factor = below > zero ? above / below : zero;
+  const Vector longest = squared_before > squared ? squared_before : squared;
+  pull.over = ~(longest <= load(lanes.limit + lane));  // a NaN must not hide
+  pull.held = (wa * wb == zero) & (stiffness > zero);
+  return pull;
+}
+
+/// The same bits of a mask in an integer.
+__attribute__((noinline, cold)) unsigned bitsOf(const Mask& mask)
+{
+  int lanes[WIDTH];
+  *reinterpret_cast<UnalignedMask*>(lanes) = mask;
+  unsigned bits = 0;
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    bits |= lanes[i] != 0 ? 1u << i : 0u;
+  }
+  return bits;
+}
+
+/// Sums up the pulls on ends that do not move.
+/// @param a, b particle of lane i
+template <class ParticleOf>
+__attribute__((noinline, cold)) void noteHeld(const Pull& pull, const Vector& wa, const Vector& wb,
+                                              const ParticleOf& a, const ParticleOf& b,
+                                              float* const held[3])
+{
+  const unsigned lanes = bitsOf(pull.held);
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    if ((lanes >> i & 1u) == 0)
+    {
+      continue;
+    }
+    const float by[3] = { pull.factor[i] * pull.d.x[i], pull.factor[i] * pull.d.y[i],
+                          pull.factor[i] * pull.d.z[i] };
+    for (int k = 0; k < 3; ++k)
+    {
+      if (wa[i] == 0)
+      {
+        held[k][a(i)] += by[k];
+      }
+      if (wb[i] == 0)
+      {
+        held[k][b(i)] -= by[k];
+      }
+    }
+  }
+}
+
+// -- springs in runs -----------------------------------------------------------------------------
+
+inline End loadEnd(const float* const axes[3], int first)
+{
+  return { load(axes[0] + first), load(axes[1] + first), load(axes[2] + first) };
+}
+
+template <class Float>
+inline void storeEnd(Float* const axes[3], int first, const End& end)
+{
+  store(axes[0] + first, end.x);
+  store(axes[1] + first, end.y);
+  store(axes[2] + first, end.z);
+}
+
+struct FromFirst
+{
+  int first;
+  int operator()(int lane) const { return first + lane; }
+};
+
+int sweepRuns(const Particles& particles, const RunEnds* ends, const Lanes* lanes, int count,
+              float dt, Note* notes)
+{
+  int noted = 0;
+  float* const way[3] = { particles.way[0], particles.way[1], particles.way[2] };
+  const float* const start[3] = { particles.start[0], particles.start[1], particles.start[2] };
+  const float* const inverse_mass = particles.inverse_mass;
+  for (int i = 0; i < count; ++i)
+  {
+    unsigned over = 0;
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int a = ends[i].a + lane;
+      const int b = ends[i].b + lane;
+      const Vector wa = load(inverse_mass + a);
+      const Vector wb = load(inverse_mass + b);
+      const End way_a = loadEnd(way, a);
+      const Pull pull = pullOf(way_a, loadEnd(way, b), loadEnd(start, a), loadEnd(start, b), wa, wb,
+                               lanes[i], lane, dt);
+      storeEnd(way, a, moved(way_a, wa * pull.factor, pull.d));
+      // Once more: the two stretches may overlap, though no two springs share a particle.
+      storeEnd(way, b, moved(loadEnd(way, b), -wb * pull.factor, pull.d));
+      if (__builtin_expect(any(pull.over), 0))
+      {
+        over |= bitsOf(pull.over) << lane;
+      }
+      if (__builtin_expect(any(pull.held), 0))
+      {
+        noteHeld(pull, wa, wb, FromFirst{ a }, FromFirst{ b }, particles.held);
+      }
+    }
+    if (__builtin_expect(over != 0, 0))
+    {
+      notes[noted++] = { i, over };
+    }
+  }
+  return noted;
+}
+
+// -- springs between any particles -----------------------------------------------------------------
+
+struct FourVectors
+{
+  Vector x, y, z, w;
+};
+
+#if defined(__AVX512F__)
+
+inline __m512 fourRecords(const Record* records, const int* index)
+{
+  __m512 r = _mm512_castps128_ps512(_mm_load_ps(&records[index[0]].x));
+  r = _mm512_insertf32x4(r, _mm_load_ps(&records[index[4]].x), 1);
+  r = _mm512_insertf32x4(r, _mm_load_ps(&records[index[8]].x), 2);
+  return _mm512_insertf32x4(r, _mm_load_ps(&records[index[12]].x), 3);
+}
+
+inline void storeFour(Record* records, const int* index, __m512 r)
+{
+  _mm_store_ps(&records[index[0]].x, _mm512_castps512_ps128(r));
+  _mm_store_ps(&records[index[4]].x, _mm512_extractf32x4_ps(r, 1));
+  _mm_store_ps(&records[index[8]].x, _mm512_extractf32x4_ps(r, 2));
+  _mm_store_ps(&records[index[12]].x, _mm512_extractf32x4_ps(r, 3));
+}
+
+inline void transpose(__m512& r0, __m512& r1, __m512& r2, __m512& r3)
+{
+  const __m512d t0 = _mm512_castps_pd(_mm512_unpacklo_ps(r0, r1));
+  const __m512d t1 = _mm512_castps_pd(_mm512_unpackhi_ps(r0, r1));
+  const __m512d t2 = _mm512_castps_pd(_mm512_unpacklo_ps(r2, r3));
+  const __m512d t3 = _mm512_castps_pd(_mm512_unpackhi_ps(r2, r3));
+  r0 = _mm512_castpd_ps(_mm512_unpacklo_pd(t0, t2));
+  r1 = _mm512_castpd_ps(_mm512_unpackhi_pd(t0, t2));
+  r2 = _mm512_castpd_ps(_mm512_unpacklo_pd(t1, t3));
+  r3 = _mm512_castpd_ps(_mm512_unpackhi_pd(t1, t3));
+}
+
+using Row = __m512;
+
+#elif defined(__AVX2__)
+
+inline __m256 fourRecords(const Record* records, const int* index)
+{
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&records[index[0]].x)),
+                              _mm_load_ps(&records[index[4]].x), 1);
+}
+
+inline void storeFour(Record* records, const int* index, __m256 r)
+{
+  _mm_store_ps(&records[index[0]].x, _mm256_castps256_ps128(r));
+  _mm_store_ps(&records[index[4]].x, _mm256_extractf128_ps(r, 1));
+}
+
+inline void transpose(__m256& r0, __m256& r1, __m256& r2, __m256& r3)
+{
+  const __m256d t0 = _mm256_castps_pd(_mm256_unpacklo_ps(r0, r1));
+  const __m256d t1 = _mm256_castps_pd(_mm256_unpackhi_ps(r0, r1));
+  const __m256d t2 = _mm256_castps_pd(_mm256_unpacklo_ps(r2, r3));
+  const __m256d t3 = _mm256_castps_pd(_mm256_unpackhi_ps(r2, r3));
+  r0 = _mm256_castpd_ps(_mm256_unpacklo_pd(t0, t2));
+  r1 = _mm256_castpd_ps(_mm256_unpackhi_pd(t0, t2));
+  r2 = _mm256_castpd_ps(_mm256_unpacklo_pd(t1, t3));
+  r3 = _mm256_castpd_ps(_mm256_unpackhi_pd(t1, t3));
+}
+
+using Row = __m256;
+
+#elif defined(__SSE2__)
+
+inline __m128 fourRecords(const Record* records, const int* index)
+{
+  return _mm_load_ps(&records[index[0]].x);
+}
+
+inline void storeFour(Record* records, const int* index, __m128 r)
+{
+  _mm_store_ps(&records[index[0]].x, r);
+}
+
+inline void transpose(__m128& r0, __m128& r1, __m128& r2, __m128& r3)
+{
+  _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
+}
+
+using Row = __m128;
+
+#endif
+
+#if defined(__SSE2__)
+
+inline FourVectors loadRecords(const Record* records, const int* index)
+{
+  Row r0 = fourRecords(records, index);
+  Row r1 = fourRecords(records, index + 1);
+  Row r2 = fourRecords(records, index + 2);
+  Row r3 = fourRecords(records, index + 3);
+  transpose(r0, r1, r2, r3);
+  return { (Vector)r0, (Vector)r1, (Vector)r2, (Vector)r3 };
+}
+
+inline void storeRecords(Record* records, const int* index, const End& end, Vector w)
+{
+  Row r0 = (Row)end.x;
+  Row r1 = (Row)end.y;
+  Row r2 = (Row)end.z;
+  Row r3 = (Row)w;
+  transpose(r0, r1, r2, r3);
+  storeFour(records, index, r0);
+  storeFour(records, index + 1, r1);
+  storeFour(records, index + 2, r2);
+  storeFour(records, index + 3, r3);
+}
+
+#else
+
+inline FourVectors loadRecords(const Record* records, const int* index)
+{
+  FourVectors v;
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    v.x[i] = records[index[i]].x;
+    v.y[i] = records[index[i]].y;
+    v.z[i] = records[index[i]].z;
+    v.w[i] = records[index[i]].w;
+  }
+  return v;
+}
+
+inline void storeRecords(Record* records, const int* index, const End& end, Vector w)
+{
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    records[index[i]] = { end.x[i], end.y[i], end.z[i], w[i] };
+  }
+}
+
+#endif
+
+struct FromRecords
+{
+  const int* index;
+  const int* particle;
+  int operator()(int lane) const { return particle[index[lane]]; }
+};
+
+int sweepRecords(const Records& records, float* const held[3], const RecordEnds* ends,
+                 const Lanes* lanes, int count, float dt, Note* notes)
+{
+  int noted = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    unsigned over = 0;
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int* a = ends[i].a + lane;
+      const int* b = ends[i].b + lane;
+      const FourVectors way_a = loadRecords(records.way, a);
+      const FourVectors way_b = loadRecords(records.way, b);
+      const FourVectors start_a = loadRecords(records.start, a);
+      const FourVectors start_b = loadRecords(records.start, b);
+      const End from_a = { way_a.x, way_a.y, way_a.z };
+      const End from_b = { way_b.x, way_b.y, way_b.z };
+      const Pull pull = pullOf(from_a, from_b, { start_a.x, start_a.y, start_a.z },
+                               { start_b.x, start_b.y, start_b.z }, way_a.w, way_b.w, lanes[i], lane, dt);
+      storeRecords(records.way, a, moved(from_a, way_a.w * pull.factor, pull.d), way_a.w);
+      storeRecords(records.way, b, moved(from_b, -way_b.w * pull.factor, pull.d), way_b.w);
+      if (__builtin_expect(any(pull.over), 0))
+      {
+        over |= bitsOf(pull.over) << lane;
+      }
+      if (__builtin_expect(any(pull.held), 0))
+      {
+        noteHeld(pull, way_a.w, way_b.w, FromRecords{ a, records.particle },
+                 FromRecords{ b, records.particle }, held);
+      }
+    }
+    if (__builtin_expect(over != 0, 0))
+    {
+      notes[noted++] = { i, over };
+    }
+  }
+  return noted;
+}
+
+// -- particle by particle --------------------------------------------------------------------------
+
+void predict(float* __restrict way, const float* __restrict velocity,
+             const float* __restrict acceleration, const float* __restrict inverse_mass,
+             const float* __restrict start, const float* __restrict position, float dt, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const float free = dt * (velocity[i] + dt * acceleration[i]);
+    const float led = position[i] - start[i];
+    way[i] = inverse_mass[i] > 0 ? free : led;
+  }
+}
+
+void finish(const float* __restrict way, const float* __restrict start,
+            const float* __restrict inverse_mass, float dt, float* __restrict position,
+            float* __restrict velocity, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    position[i] = inverse_mass[i] > 0 ? start[i] + way[i] : position[i];
+    velocity[i] = inverse_mass[i] > 0 ? way[i] / dt : velocity[i];
+  }
+}
+
+void accelerate(float* __restrict acceleration, const float* __restrict velocity, float outer,
+                float friction, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    acceleration[i] = outer - friction * velocity[i];
+  }
+}
+
+bool calm(const float* const position[3], const float* const velocity[3], float limit, int count)
+{
+  int wild = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const float x = position[0][i] + position[1][i] + position[2][i];
+    const float squared = velocity[0][i] * velocity[0][i] + velocity[1][i] * velocity[1][i] +
+                          velocity[2][i] * velocity[2][i];
+    wild |= static_cast<int>(!(squared <= limit)) | static_cast<int>(!(x - x == 0.0f));
+  }
+  return wild == 0;
+}
+
+constexpr Set SET = { NAME, sweepRuns, sweepRecords, accelerate, calm, predict, finish };
+
+// NOLINTEND
