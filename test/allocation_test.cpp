@@ -1,53 +1,8 @@
 // Claim: a step that tears nothing does not allocate.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "allocations.h"
 #include "scenes.h"
-
-namespace
-{
-
-std::atomic<long> allocations{ 0 };
-
-void* counted(std::size_t size)
-{
-  ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1))
-  {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size)
-{
-  return counted(size);
-}
-void* operator new[](std::size_t size)
-{
-  return counted(size);
-}
-void operator delete(void* memory) noexcept
-{
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept
-{
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept
-{
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept
-{
-  std::free(memory);
-}
 
 namespace cloth
 {

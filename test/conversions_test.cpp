@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 
 #include "cloth_tearing/node/conversions.h"
+#include "message_bytes.h"
 
 using namespace cloth_tearing;  // NOLINT: the subject of every line below
 
@@ -19,16 +21,17 @@ cloth::Surface smallSurface()
   surface.time = 1.5;
   surface.step = 7;
   surface.epoch = 2;
-  surface.revision = 1;
   surface.position = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 } };
-  surface.normal.assign(4, cloth::Vec3(0, -1, 0));
-  surface.strain = { 0.0F, 0.1F, 0.2F, 0.3F };
-  surface.parents = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 1, 2 } };
-  surface.triangles = { { { 0, 1, 2 }, { { { 0, 0 }, { 1, 0 }, { 0, 1 } } } },
-                        { { 1, 3, 2 }, { { { 0.5, 0 }, { 1, 1 }, { 0, 0.25 } } } } };
-  surface.torn_edges = { { 1, 3 } };
-  surface.weak_points = { 2 };
   surface.held = { { 0, 0 }, { 3, 9 } };
+  cloth::SurfaceTopology topology;
+  topology.revision = 1;
+  topology.parents = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 1, 2 } };
+  topology.triangles = { { { 0, 1, 2 }, { { { 0, 0 }, { 1, 0 }, { 0, 1 } } } },
+                         { { 1, 3, 2 }, { { { 0.5, 0 }, { 1, 1 }, { 0, 0.25 } } } } };
+  topology.springs = { { { 0, 1 }, 1.25 }, { { 1, 3 }, 0.8 }, { { 2, 3 }, 0.5 } };
+  topology.torn_edges = { { 1, 3 } };
+  topology.weak_points = { 2 };
+  surface.topology = std::make_shared<const cloth::SurfaceTopology>(topology);
   return surface;
 }
 
@@ -95,7 +98,7 @@ TEST(SurfaceMessage, HoldsTheMeshFromItsOriginInTheFrameOfItsHeader)
   EXPECT_EQ(message.positions[9], 1.0F);
   EXPECT_EQ(message.positions[10], 0.0F);
   EXPECT_EQ(message.positions[11], 1.0F);
-  EXPECT_EQ(message.strain, (std::vector<float>{ 0.0F, 0.1F, 0.2F, 0.3F }));
+  EXPECT_EQ(message.strain, (std::vector<float>{ 0.0F, 0.25F, 1.0F, 1.0F }));
   EXPECT_EQ(message.parents, (std::vector<std::uint32_t>{ 0, 0, 1, 1, 2, 2, 1, 2 }));
   EXPECT_EQ(message.triangles, (std::vector<std::uint32_t>{ 0, 1, 2, 1, 3, 2 }));
   EXPECT_EQ(message.uv, (std::vector<float>{ 0, 0, 1, 0, 0, 1, 0.5F, 0, 1, 1, 0, 0.25F }));
@@ -105,6 +108,20 @@ TEST(SurfaceMessage, HoldsTheMeshFromItsOriginInTheFrameOfItsHeader)
   EXPECT_EQ(message.held[0].grasp, 0u) << "0 = pinned";
   EXPECT_EQ(message.held[1].particle, 3u);
   EXPECT_EQ(message.held[1].grasp, 9u);
+}
+
+TEST(SurfaceMessage, IsTheSameWhenOneOfAnotherClothIsWrittenOver)
+{
+  ClothSurface message = toMessage(smallSurface(), PLACEMENT);
+  const cloth::Surface nothing;
+
+  fillTopology(message, *nothing.topology);
+  fillMotion(message, nothing, PLACEMENT);
+  EXPECT_TRUE(sameBytes(message, toMessage(nothing, PLACEMENT)));
+
+  fillTopology(message, *smallSurface().topology);
+  fillMotion(message, smallSurface(), PLACEMENT);
+  EXPECT_TRUE(sameBytes(message, toMessage(smallSurface(), PLACEMENT)));
 }
 
 TEST(SurfaceMessage, IsAsFineFarAwayAsAtHome)

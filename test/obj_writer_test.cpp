@@ -35,13 +35,13 @@ TEST(ObjWriter, WritesWhatTheReaderReadsBackAsTheSameTornCloth)
   {
     EXPECT_EQ(model.positions[i].cast<Real>(), surface.position[i]);
   }
-  ASSERT_EQ(model.triangles.size(), surface.triangles.size());
+  ASSERT_EQ(model.triangles.size(), surface.topology->triangles.size());
   for (std::size_t i = 0; i < model.triangles.size(); ++i)
   {
-    EXPECT_EQ(model.triangles[i].vertices, surface.triangles[i].particles);
+    EXPECT_EQ(model.triangles[i].vertices, surface.topology->triangles[i].particles);
     for (int k = 0; k < 3; ++k)
     {
-      EXPECT_EQ(model.triangles[i].uv[k], surface.triangles[i].uv[k]);
+      EXPECT_EQ(model.triangles[i].uv[k], surface.topology->triangles[i].uv[k]);
     }
   }
 }

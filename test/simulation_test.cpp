@@ -510,7 +510,7 @@ TEST(Bounds, PutALoosePieceToRestAndSaySoOnce)
   run(simulation, 100);
   EXPECT_EQ(simulation.cloth().state.position[20], where) << "no longer stepped";
   EXPECT_EQ(simulation.cloth().state.velocity[20], Vec3::Zero().eval());
-  EXPECT_EQ(simulation.snapshot().surface.triangles.size(), 18u) << "nor drawn";
+  EXPECT_EQ(simulation.snapshot().surface.topology->triangles.size(), 18u) << "nor drawn";
   EXPECT_NEAR(simulation.summary().rest_area, 1.09, 1e-9) << "but kept";
   GraspRequest request;
   request.point = where.cast<double>();

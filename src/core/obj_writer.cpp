@@ -19,7 +19,7 @@ void writeObj(std::ostream& out, const Surface& surface, const Vec3d& origin)
     out << "v " << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
   }
   out.precision(std::numeric_limits<double>::max_digits10);
-  for (const SurfaceTriangle& t : surface.triangles)
+  for (const SurfaceTriangle& t : surface.topology->triangles)
   {
     for (const Vec2d& uv : t.uv)
     {
@@ -27,7 +27,7 @@ void writeObj(std::ostream& out, const Surface& surface, const Vec3d& origin)
     }
   }
   std::size_t corner = 0;
-  for (const SurfaceTriangle& t : surface.triangles)
+  for (const SurfaceTriangle& t : surface.topology->triangles)
   {
     out << 'f';
     for (int p : t.particles)

@@ -17,57 +17,38 @@ bool isRag(const Cloth& cloth, const Triangle& t)
   return std::count_if(t.springs.begin(), t.springs.end(), carries) < 2;
 }
 
-bool isDrawn(const Cloth& cloth, const Triangle& t)
+/// Which triangles are drawn.
+std::vector<char> findDrawn(const Cloth& cloth)
 {
-  return !cloth.damage.at_rest[t.particles[0].index] && !isRag(cloth, t);
-}
-
-void addTriangles(const Cloth& cloth, Surface& surface)
-{
-  surface.normal.assign(cloth.mesh.particleCount(), Vec3::Zero());
-  surface.triangles.reserve(cloth.mesh.triangleCount());
+  std::vector<char> drawn(cloth.mesh.triangleCount());
   for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
   {
     const Triangle& t = cloth.mesh.triangle({ i });
-    const std::array<int, 3> p = { t.particles[0].index, t.particles[1].index,
-                                   t.particles[2].index };
-    if (!isDrawn(cloth, t))
-    {
-      continue;
-    }
-    surface.triangles.push_back({ p, t.uv });
-    const auto& x = cloth.state.position;
-    const Vec3 normal = (x[p[1]] - x[p[0]]).cross(x[p[2]] - x[p[0]]);  // twice the area long
-    for (int corner : p)
-    {
-      surface.normal[corner] += normal;
-    }
+    drawn[i] = !cloth.damage.at_rest[t.particles[0].index] && !isRag(cloth, t);
   }
-  for (Vec3& normal : surface.normal)
+  return drawn;
+}
+
+void addTriangles(const Cloth& cloth, const std::vector<char>& drawn, SurfaceTopology& topology)
+{
+  topology.triangles.reserve(drawn.size());
+  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
   {
-    const Real length = std::sqrt(normal.squaredNorm());
-    normal = length > 0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
+    if (drawn[i])
+    {
+      const Triangle& t = cloth.mesh.triangle({ i });
+      topology.triangles.push_back(
+          { { t.particles[0].index, t.particles[1].index, t.particles[2].index }, t.uv });
+    }
   }
 }
 
-/// Whether cloth ends at a spring that is no part of its outline.
-bool isTornEdge(const Cloth& cloth, SpringId s)
+void addSprings(const Cloth& cloth, const std::vector<char>& drawn, SurfaceTopology& topology)
 {
-  const auto& triangles = cloth.mesh.spring(s).triangles;
-  const auto drawn = [&cloth](TriangleId t)
-  { return t.valid() && isDrawn(cloth, cloth.mesh.triangle(t)); };
-  return !cloth.damage.outer[s.index] &&
-         std::count_if(triangles.begin(), triangles.end(), drawn) == 1;
-}
-
-void addSprings(const Cloth& cloth, Surface& surface)
-{
-  surface.strain.assign(cloth.mesh.particleCount(), Real(0));
-  surface.springs.reserve(cloth.mesh.springCount());
+  topology.springs.reserve(cloth.mesh.springCount());
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
   {
-    const SpringId s{ i };
-    const Spring& spring = cloth.mesh.spring(s);
+    const Spring& spring = cloth.mesh.spring({ i });
     const std::array<int, 2> ends = { spring.particles[0].index, spring.particles[1].index };
     if (cloth.damage.at_rest[ends[0]])
     {
@@ -75,28 +56,55 @@ void addSprings(const Cloth& cloth, Surface& surface)
     }
     if (cloth.springs.structural[i].active())
     {
-      const auto strain = static_cast<Real>(cloth.strain(s));
-      surface.springs.push_back({ ends, strain });
-      surface.strain[ends[0]] = std::max(surface.strain[ends[0]], strain);
-      surface.strain[ends[1]] = std::max(surface.strain[ends[1]], strain);
+      topology.springs.push_back({ ends, cloth.rest.length[i] });
     }
-    if (isTornEdge(cloth, s))
+    const auto is_drawn = [&drawn](TriangleId t) { return t.valid() && drawn[t.index]; };
+    if (!cloth.damage.outer[i] && is_drawn(spring.triangles[0]) != is_drawn(spring.triangles[1]))
     {
-      surface.torn_edges.push_back(ends);
+      topology.torn_edges.push_back(ends);  // cloth ends there, and it is no part of its outline
     }
   }
 }
 
-void addParticles(const Cloth& cloth, Surface& surface)
+void addWeakPoints(const Cloth& cloth, SurfaceTopology& topology)
 {
-  surface.position = cloth.state.position.toVectors();
-  surface.parents = cloth.damage.parents;
   for (int i = 0; i < cloth.mesh.particleCount(); ++i)
   {
     if (cloth.damage.weak[i] && !cloth.damage.at_rest[i])
     {
-      surface.weak_points.push_back(i);
+      topology.weak_points.push_back(i);
     }
+  }
+}
+
+Real strainOf(const Surface& surface, const SurfaceSpring& spring)
+{
+  const Vec3d a = surface.position[spring.particles[0]].cast<double>();
+  const Vec3d b = surface.position[spring.particles[1]].cast<double>();
+  return static_cast<Real>((b - a).norm() / spring.rest_length - 1.0);
+}
+
+}  // namespace
+
+SurfaceTopology makeTopology(const Cloth& cloth)
+{
+  SurfaceTopology topology;
+  topology.revision = cloth.damage.tears;
+  topology.parents = cloth.damage.parents;
+  const std::vector<char> drawn = findDrawn(cloth);
+  addTriangles(cloth, drawn, topology);
+  addSprings(cloth, drawn, topology);
+  addWeakPoints(cloth, topology);
+  return topology;
+}
+
+void takeMotion(const Cloth& cloth, Surface& surface)
+{
+  surface.position.resize(cloth.mesh.particleCount());
+  surface.held.clear();
+  for (int i = 0; i < cloth.mesh.particleCount(); ++i)
+  {
+    surface.position[i] = cloth.state.position[i];
     if (cloth.attachments[i].held())
     {
       surface.held.push_back({ i, cloth.attachments[i].grasp });
@@ -104,16 +112,56 @@ void addParticles(const Cloth& cloth, Surface& surface)
   }
 }
 
-}  // namespace
-
 Surface makeSurface(const Cloth& cloth)
 {
   Surface surface;
-  surface.revision = cloth.damage.tears;
-  addParticles(cloth, surface);
-  addTriangles(cloth, surface);
-  addSprings(cloth, surface);
+  takeMotion(cloth, surface);
+  surface.topology = std::make_shared<const SurfaceTopology>(makeTopology(cloth));
   return surface;
+}
+
+void findNormals(const Surface& surface, std::vector<Vec3>& result)
+{
+  result.assign(surface.position.size(), Vec3::Zero());
+  for (const SurfaceTriangle& t : surface.topology->triangles)
+  {
+    const Vec3& a = surface.position[t.particles[0]];
+    const Vec3& b = surface.position[t.particles[1]];
+    const Vec3& c = surface.position[t.particles[2]];
+    const Vec3 normal = (b - a).cross(c - a);  // twice the area long
+    for (int corner : t.particles)
+    {
+      result[corner] += normal;
+    }
+  }
+  for (Vec3& normal : result)
+  {
+    const Real length = std::sqrt(normal.squaredNorm());
+    normal = length > 0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
+  }
+}
+
+void findSpringStrains(const Surface& surface, std::vector<Real>& result)
+{
+  const std::vector<SurfaceSpring>& springs = surface.topology->springs;
+  result.resize(springs.size());
+  for (std::size_t i = 0; i < springs.size(); ++i)
+  {
+    result[i] = strainOf(surface, springs[i]);
+  }
+}
+
+void findParticleStrains(const Surface& surface, std::vector<Real>& result)
+{
+  result.assign(surface.position.size(), Real(0));
+  for (const SurfaceSpring& spring : surface.topology->springs)
+  {
+    const Real strain = strainOf(surface, spring);
+    for (int end : spring.particles)
+    {
+      result[end] = std::max(result[end], strain);
+    }
+  }
 }
 
 }  // namespace cloth

@@ -25,9 +25,9 @@ std::chrono::steady_clock::duration periodOf(double rate)
 ClothPublisher::ClothPublisher(ros::NodeHandle node, const NodeParams& params,
                                const Placement& placement)
     : placement_(placement)
-    , painter_(params.markers, placement)
     , diagnostics_(node)
     , grasps_(node, placement)
+    , painter_(params.markers, placement)
 {
   open<visualization_msgs::MarkerArray>(node, "markers", params.marker_rate, markers_);
   open<ClothSurface>(node, "surface", params.surface_rate, surface_);
@@ -263,27 +263,42 @@ bool ClothPublisher::takeTurn(Channel& channel, bool unchanged_too, Clock::time_
 void ClothPublisher::publishSnapshot(bool markers, bool surface)
 {
   const std::uint64_t version = version_;  // before the snapshot: it may be newer, never older
-  const cloth::Snapshot snapshot =
-      loop_->call([](cloth::Simulation& simulation) { return simulation.snapshot(); });
+  loop_->call([this](cloth::Simulation& simulation) { taker_.take(simulation, snapshot_); });
   const ros::Time stamp = ros::Time::now();
   if (markers)
   {
-    const auto message =
-        boost::make_shared<visualization_msgs::MarkerArray>(painter_.draw(snapshot));
-    for (visualization_msgs::Marker& marker : message->markers)
-    {
-      marker.header.stamp = stamp;
-    }
-    markers_.topic.publish(message);
+    publishMarkers(stamp);
     markers_.seen = version;
   }
   if (surface)
   {
-    const auto message = boost::make_shared<ClothSurface>(toMessage(snapshot.surface, placement_));
-    message->header.stamp = stamp;
-    surface_.topic.publish(message);
+    publishSurface(stamp);
     surface_.seen = version;
   }
+}
+
+void ClothPublisher::publishMarkers(const ros::Time& stamp)
+{
+  marker_message_.renew();
+  painter_.draw(snapshot_, *marker_message_);
+  for (visualization_msgs::Marker& marker : marker_message_->markers)
+  {
+    marker.header.stamp = stamp;
+  }
+  markers_.topic.publish(marker_message_.shared());
+}
+
+void ClothPublisher::publishSurface(const ros::Time& stamp)
+{
+  const cloth::Surface& surface = snapshot_.surface;
+  if (surface_message_.renew() || told_topology_ != surface.topology)
+  {
+    fillTopology(*surface_message_, *surface.topology);
+    told_topology_ = surface.topology;
+  }
+  fillMotion(*surface_message_, surface, placement_);
+  surface_message_->header.stamp = stamp;
+  surface_.topic.publish(surface_message_.shared());
 }
 
 StatusSource ClothPublisher::statusSource()

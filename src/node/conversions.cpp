@@ -1,6 +1,7 @@
 // Moves data between the core's types and the messages.
 #include "cloth_tearing/node/conversions.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -74,26 +75,24 @@ std::uint8_t toMessage(cloth::CauseKind kind)
   return TearEvent::NO_CAUSE;
 }
 
-void fillParticles(ClothSurface& message, const cloth::Surface& surface)
+/// Writes pairs one after the other over `list`.
+void fillPairs(std::vector<std::uint32_t>& list, const std::vector<std::array<int, 2>>& pairs)
 {
-  message.positions.reserve(3 * surface.position.size());
-  for (const cloth::Vec3& x : surface.position)
+  list.clear();
+  list.reserve(2 * pairs.size());
+  for (const std::array<int, 2>& pair : pairs)
   {
-    message.positions.insert(message.positions.end(), x.data(), x.data() + 3);
-  }
-  message.strain.assign(surface.strain.begin(), surface.strain.end());
-  message.parents.reserve(2 * surface.parents.size());
-  for (const std::array<int, 2>& parents : surface.parents)
-  {
-    message.parents.insert(message.parents.end(), parents.begin(), parents.end());
+    list.insert(list.end(), pair.begin(), pair.end());
   }
 }
 
-void fillTriangles(ClothSurface& message, const cloth::Surface& surface)
+void fillTriangles(ClothSurface& message, const std::vector<cloth::SurfaceTriangle>& triangles)
 {
-  message.triangles.reserve(3 * surface.triangles.size());
-  message.uv.reserve(6 * surface.triangles.size());
-  for (const cloth::SurfaceTriangle& t : surface.triangles)
+  message.triangles.clear();
+  message.triangles.reserve(3 * triangles.size());
+  message.uv.clear();
+  message.uv.reserve(6 * triangles.size());
+  for (const cloth::SurfaceTriangle& t : triangles)
   {
     message.triangles.insert(message.triangles.end(), t.particles.begin(), t.particles.end());
     for (const cloth::Vec2d& uv : t.uv)
@@ -104,19 +103,22 @@ void fillTriangles(ClothSurface& message, const cloth::Surface& surface)
   }
 }
 
-void fillMarks(ClothSurface& message, const cloth::Surface& surface)
+void fillPositions(ClothSurface& message, const std::vector<cloth::Vec3>& positions)
 {
-  for (const std::array<int, 2>& edge : surface.torn_edges)
+  message.positions.resize(3 * positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    message.torn_edges.insert(message.torn_edges.end(), edge.begin(), edge.end());
+    std::copy_n(positions[i].data(), 3, &message.positions[3 * i]);
   }
-  message.weak_points.assign(surface.weak_points.begin(), surface.weak_points.end());
-  for (const cloth::HeldParticle& held : surface.held)
+}
+
+void fillHeld(ClothSurface& message, const std::vector<cloth::HeldParticle>& held)
+{
+  message.held.resize(held.size());
+  for (std::size_t i = 0; i < held.size(); ++i)
   {
-    HeldParticle particle;
-    particle.particle = static_cast<std::uint32_t>(held.particle);
-    particle.grasp = held.grasp;
-    message.held.push_back(particle);
+    message.held[i].particle = static_cast<std::uint32_t>(held[i].particle);
+    message.held[i].grasp = held[i].grasp;
   }
 }
 
@@ -132,15 +134,6 @@ std::string toWords(const Placement& placement)
     words += (i > 0 ? ", " : "") + inFull(placement.origin[i]);
   }
   return words + ")";
-}
-
-geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement)
-{
-  geometry_msgs::Point p;
-  p.x = x.x() + placement.origin.x();
-  p.y = x.y() + placement.origin.y();
-  p.z = x.z() + placement.origin.z();
-  return p;
 }
 
 geometry_msgs::Vector3 toVector3(const cloth::Vec3d& v)
@@ -166,16 +159,30 @@ geometry_msgs::Pose toPose(const cloth::Pose& pose, const Placement& placement)
 ClothSurface toMessage(const cloth::Surface& surface, const Placement& placement)
 {
   ClothSurface message;
+  fillTopology(message, *surface.topology);
+  fillMotion(message, surface, placement);
+  return message;
+}
+
+void fillTopology(ClothSurface& message, const cloth::SurfaceTopology& topology)
+{
+  message.revision = topology.revision;
+  fillPairs(message.parents, topology.parents);
+  fillTriangles(message, topology.triangles);
+  fillPairs(message.torn_edges, topology.torn_edges);
+  message.weak_points.assign(topology.weak_points.begin(), topology.weak_points.end());
+}
+
+void fillMotion(ClothSurface& message, const cloth::Surface& surface, const Placement& placement)
+{
   message.header.frame_id = placement.frame_id;
   message.time = surface.time;
   message.step = surface.step;
   message.epoch = surface.epoch;
-  message.revision = surface.revision;
   message.origin = toPoint(cloth::Vec3d::Zero(), placement);
-  fillParticles(message, surface);
-  fillTriangles(message, surface);
-  fillMarks(message, surface);
-  return message;
+  fillPositions(message, surface.position);
+  findParticleStrains(surface, message.strain);
+  fillHeld(message, surface.held);
 }
 
 TearEvent toMessage(const cloth::TearEvent& event, const Placement& placement)

@@ -8,16 +8,19 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/core/snapshot_taker.h"
 #include "cloth_tearing/node/cloth_markers.h"
 #include "cloth_tearing/node/conversions.h"
 #include "cloth_tearing/node/diagnostics.h"
 #include "cloth_tearing/node/grasp_publisher.h"
+#include "cloth_tearing/node/kept_message.h"
 #include "cloth_tearing/node/node_params.h"
 
 namespace cloth_tearing
@@ -111,6 +114,8 @@ private:
   bool heard(const Channel& channel) const;
   bool takeTurn(Channel& channel, bool unchanged_too, Clock::time_point now);
   void publishSnapshot(bool markers, bool surface);
+  void publishMarkers(const ros::Time& stamp);
+  void publishSurface(const ros::Time& stamp);
   StatusSource statusSource();
   void publishStatus();
   void publishGrasps();
@@ -118,7 +123,6 @@ private:
 
   Placement placement_;
   cloth::SimulationLoop* loop_ = nullptr;
-  ClothMarkers painter_;
   Channel markers_;
   Channel surface_;
   Channel status_;
@@ -126,6 +130,14 @@ private:
   ros::Publisher tear_events_;
   Diagnostics diagnostics_;  ///< of the publishing thread
   GraspPublisher grasps_;
+
+  // Of the publishing thread: what is drawn, and how it was told last.
+  cloth::SnapshotTaker taker_;
+  cloth::Snapshot snapshot_;
+  ClothMarkers painter_;
+  KeptMessage<visualization_msgs::MarkerArray> marker_message_;
+  KeptMessage<ClothSurface> surface_message_;
+  std::shared_ptr<const cloth::SurfaceTopology> told_topology_;  ///< in surface_message_
 
   std::atomic<std::uint64_t> version_{ 1 };  ///< +1 by every step and command
   std::atomic<int> postponed_{ 0 };

@@ -35,7 +35,14 @@ std::string toWords(const Placement& placement);
 // -- out -----------------------------------------------------------------------------------------
 
 /// `x` [m] of the cloth frame, in frame_id.
-geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement);
+inline geometry_msgs::Point toPoint(const cloth::Vec3d& x, const Placement& placement)
+{
+  geometry_msgs::Point p;
+  p.x = x.x() + placement.origin.x();
+  p.y = x.y() + placement.origin.y();
+  p.z = x.z() + placement.origin.z();
+  return p;
+}
 
 geometry_msgs::Vector3 toVector3(const cloth::Vec3d& v);
 
@@ -44,6 +51,11 @@ geometry_msgs::Pose toPose(const cloth::Pose& pose, const Placement& placement);
 
 /// The header has no stamp yet.
 ClothSurface toMessage(const cloth::Surface& surface, const Placement& placement);
+
+/// The two parts of that, each written over what `message` had of it: what stays while the topology
+/// does, and the rest.
+void fillTopology(ClothSurface& message, const cloth::SurfaceTopology& topology);
+void fillMotion(ClothSurface& message, const cloth::Surface& surface, const Placement& placement);
 
 TearEvent toMessage(const cloth::TearEvent& event, const Placement& placement);
 
