@@ -42,8 +42,11 @@ void registerSteps(const Options& options);
 /// same_bits/SIDE: whether the cloth is the same for each number of threads.
 void registerSameBits(const Options& options);
 
+/// phases/ENGINE/SCENE/SIDE: which part of a step takes how much of it.
+void registerPhases();
+
 /// torn/ENGINE/MESH/SIDE/threads:T: what a step costs while the cloth is torn, and each tear.
-void registerTears(const Options& options);
+void registerTears();
 
 /// profile and after_tears/...: a thesis' cloth that was torn 500 times.
 void registerProfile();

@@ -87,7 +87,8 @@ int main(int count, char** arguments)
     }
     cloth_bench::registerSteps(options);
     cloth_bench::registerSameBits(options);
-    cloth_bench::registerTears(options);
+    cloth_bench::registerPhases();
+    cloth_bench::registerTears();
     cloth_bench::registerProfile();
     cloth_bench::registerSnapshot();
     return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 1;

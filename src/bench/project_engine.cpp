@@ -52,18 +52,6 @@ private:
   bool failed_ = false;
 };
 
-/// The number of threads is a parameter only of versions that have them.
-template <class Params>
-auto setThreads(Params& params, int threads, int /*preferred*/)
-    -> decltype(params.threads = threads, void())
-{
-  params.threads = threads;
-}
-template <class Params>
-void setThreads(Params& /*params*/, int /*threads*/, long /*otherwise*/)
-{
-}
-
 }  // namespace
 
 cloth::SimulationParams projectParams(EngineKind kind, const Scene& scene, double time_step,
@@ -75,7 +63,7 @@ cloth::SimulationParams projectParams(EngineKind kind, const Scene& scene, doubl
   params.material = scene.material;
   params.environment = scene.environment;
   params.solver.max_substeps = 64;  // one that needs more than one is found out
-  setThreads(params, threads, 0);
+  params.threads = threads;
   return params;
 }
 
