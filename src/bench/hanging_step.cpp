@@ -14,7 +14,7 @@ namespace cloth_bench
 namespace
 {
 
-constexpr double SETTLING_TIME = 2.0;  ///< [s]
+constexpr double SETTLING_TIME = 1.5;  ///< [s]
 constexpr double SETTLING_AIR = 4.0;   ///< air friction while it comes to rest [1/s]
 constexpr double REST_SPEED = 0.3;     ///< a stable cloth's fastest particle is slower then [m/s]
 constexpr int COARSE = 30;             ///< particles a side that are searched from scratch

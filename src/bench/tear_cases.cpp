@@ -21,7 +21,7 @@ using cloth::Vec3d;
 constexpr double PULL_TIME = 0.12;     ///< a place is pulled for so long [s]
 constexpr double PULL_SPEED = 3.0;     ///< [m/s]
 constexpr double GRASP_RADIUS = 0.05;  ///< [m]
-constexpr double MOST_UPDATES = 2e8;   ///< steps x particles of a run
+constexpr double MOST_UPDATES = 1e8;   ///< steps x particles of a run
 constexpr int PULLS = 10;
 
 double median(std::vector<double> values)
