@@ -140,6 +140,7 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.max_gripper_turn, compiled.max_gripper_turn);
   EXPECT_EQ(shipped.max_speed, compiled.max_speed);
   EXPECT_EQ(shipped.runaway_strain, compiled.runaway_strain);
+  EXPECT_EQ(shipped.threads, compiled.threads);
   EXPECT_EQ(shipped.tear_log_size, compiled.tear_log_size);
 
   EXPECT_EQ(shipped.material.areal_density, compiled.material.areal_density);

@@ -74,6 +74,7 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   tree["pins"]["particles"] = list({ 4, 5 });
   tree["pins"]["regions"] = list({ list({ 0, 0, 0, 1 }) });
   tree["solver"] = "force_springs";
+  tree["threads"] = 3;
   tree["material"]["stiffness"] = 55.5;
   tree["material"]["stiffness_law"] = "per_spring";
   tree["tearing"]["enabled"] = false;
@@ -99,6 +100,7 @@ TEST(ParamsLoader, CarriesValuesOfEveryTypeOverTheDefaults)
   ASSERT_EQ(params.pins.regions.size(), 1u);
   EXPECT_EQ(params.pins.regions[0].radius, 1.0);
   EXPECT_EQ(params.simulation.solver.kind, cloth::SolverKind::FORCE_SPRINGS);
+  EXPECT_EQ(params.simulation.threads, 3);
   EXPECT_EQ(params.simulation.material.stiffness, 55.5);
   EXPECT_EQ(params.simulation.material.stiffness_law, cloth::StiffnessLaw::PER_SPRING);
   EXPECT_FALSE(params.simulation.tearing.enabled);
@@ -267,6 +269,9 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "", "time_step", infinity, "must be finite" },
     { "", "tear_log_size", 10.5, "must be a whole number" },
     { "", "tear_log_size", 0, "tear_log_size is 0" },
+    { "", "threads", -1, "threads is -1, must be at least 0 and at most 256" },
+    { "", "threads", 257, "threads is 257, must be at least 0 and at most 256" },
+    { "", "threads", 1.5, "threads is the number 1.5, must be a whole number" },
     { "", "marker_rate", 0.0, "marker_rate [Hz] is 0" },
     { "", "max_grasp_distance", -1.0, "max_grasp_distance [m] is -1" },
     { "", "grasp_force_filter", -1.0, "grasp_force_filter [s] is -1" },

@@ -586,6 +586,7 @@ TEST(Parameters, AreRefusedAllAtOnceByName)
   params.max_gripper_turn = 101.0;
   params.max_speed = 0.0;
   params.runaway_strain = std::nan("");
+  params.threads = 257;
   params.tear_log_size = 0;
   try
   {
@@ -598,7 +599,7 @@ TEST(Parameters, AreRefusedAllAtOnceByName)
     for (const char* field :
          { "stiffness [N/m]", "air_friction", "time_step", "tear_strain", "thickness",
            "max_grasp_distance", "grasp_force_filter", "max_gripper_speed", "max_gripper_turn",
-           "max_speed", "runaway_strain", "tear_log_size" })
+           "max_speed", "runaway_strain", "threads", "tear_log_size" })
     {
       EXPECT_NE(what.find(field), std::string::npos) << field << "\nnot in\n" << what;
     }

@@ -103,6 +103,7 @@ void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
   reader.read("max_gripper_turn", simulation.max_gripper_turn);
   reader.read("max_speed", simulation.max_speed);
   reader.read("runaway_strain", simulation.runaway_strain);
+  reader.read("threads", simulation.threads);
   reader.read("tear_log_size", simulation.tear_log_size);
 
   reader.read("material/areal_density", simulation.material.areal_density);
