@@ -71,13 +71,15 @@ TEST_P(Endurance, OfClothWhoseTrianglesAreDetachedOneByOneWhileItMoves)
   Cloth cloth = makeCloth(upright(sheet(1.0, 1.0, 8, 8, RectanglePattern::IRREGULAR)), {},
                           params.material, RestShapeSource::IMPORTED, 0.0);
   const auto solver = makeSolver(params.solver);
+  const Mesh untorn = cloth.mesh;
+  OuterForces outer;
   SphereContact contact;
   std::vector<Sphere> none;
   Vec3Array acceleration;
   const auto step = [&]
   {
     cloth.state.previous = cloth.state.position;
-    outerAccelerations(cloth, params.environment, acceleration);
+    outer.accelerate(cloth, untorn, params.environment, acceleration);
     solver->advance(cloth.state, cloth.springs, acceleration, dt);
     solver->limitStrain(cloth.state, cloth.springs);
     contact.resolve(cloth, none, params.contact, dt);

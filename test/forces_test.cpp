@@ -34,7 +34,7 @@ Environment windOnly(const Vec3d& wind, double drag)
 Vec3d totalForce(const Cloth& cloth, const Environment& environment)
 {
   Vec3Array acceleration;
-  outerAccelerations(cloth, environment, acceleration);
+  OuterForces().accelerate(cloth, cloth.mesh, environment, acceleration);
   Vec3d sum = Vec3d::Zero();
   for (int i = 0; i < cloth.state.size(); ++i)
   {
@@ -49,7 +49,8 @@ TEST(Gravity, PullsEveryParticleAlongItsVector)
   environment.gravity = Vec3d(1, -2, 3);
   Vec3Array acceleration;
 
-  outerAccelerations(triangle(0.3), environment, acceleration);
+  const Cloth cloth = triangle(0.3);
+  OuterForces().accelerate(cloth, cloth.mesh, environment, acceleration);
 
   ASSERT_EQ(acceleration.size(), 3u);
   for (const Vec3& a : acceleration)

@@ -622,6 +622,8 @@ const std::set<std::string> LEFT_OUT = {
   "tearing of simulation",
   "loose_pieces of simulation",
   "acceleration of simulation",
+  "outer of simulation",
+  "suspects of simulation",
   "undo of simulation",
   "balance of simulation",
   "log of simulation",

@@ -25,112 +25,124 @@ std::unique_ptr<Solver> ForceSprings::clone() const
   return std::make_unique<ForceSprings>(*this);
 }
 
-/// @param see told of each spring's index and its squared length
-template <class See>
-void ForceSprings::addForces(const ParticleState& state, const std::vector<SpringLaw>& springs,
-                             const See& see)
-{
-  for (std::size_t i = 0; i < springs.size(); ++i)
-  {
-    const SpringLaw& spring = springs[i];
-    if (!spring.active())
-    {
-      continue;
-    }
-    const Vec3 d = state.position[spring.b] - state.position[spring.a];
-    const Real squared = d.squaredNorm();
-    see(i, squared);
-    const Real length = std::sqrt(squared);
-    if (!(length > 0))
-    {
-      continue;
-    }
-    const Vec3 n = d / length;
-    const Real speed = n.dot(state.velocity[spring.b] - state.velocity[spring.a]);
-    const Vec3 force = (spring.stiffness * (length - spring.rest) + spring.damping * speed) * n;
-    force_[spring.a] += force;
-    force_[spring.b] -= force;
-  }
-}
-
 void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
                            const Vec3Array& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt / substeps_);
-  const auto unseen = [](std::size_t, Real) {};
-  const auto seen = [&](std::size_t i, Real squared)
-  { noteLong(i, springs.structural[i].rest, squared); };
-  clearNotes(springs.structural.size());
-  held_.assign(state.size(), Vec3::Zero());
+  arrange(springs, state.size());
+  force_.resize(state.size());
+  held_.resize(state.size());
+  held_.setZero();
   held_scale_ = 1.0 / substeps_;
   added_impulse_.setZero();
   for (int substep = 0; substep < substeps_; ++substep)
   {
-    force_.assign(state.size(), Vec3::Zero());
+    addForces(state);
     if (substep == 0)
     {
-      addForces(state, springs.structural, seen);
+      collectNotes(springs.structural.size());
     }
-    else
+    addImpulse(state, h);
+    forStretches(state.size(), [&](Range range) { integrate(state, acceleration, range, h); });
+  }
+}
+
+void ForceSprings::addForces(const ParticleState& state)
+{
+  const kernels::Bodies bodies = {
+    { state.position.axis(0), state.position.axis(1), state.position.axis(2) },
+    { state.velocity.axis(0), state.velocity.axis(1), state.velocity.axis(2) },
+    { force_.axis(0), force_.axis(1), force_.axis(2) }
+  };
+  force_.setZero();
+  forGroups([&](int g, Scratch& scratch) { pull(groups()[g], scratch, bodies); });
+}
+
+void ForceSprings::pull(const SpringGroup& group, Scratch& scratch, const kernels::Bodies& bodies)
+{
+  const kernels::Set& loops = kernels::best();
+  const auto runs = group.run_ends.size();
+  const auto loose = group.loose_ends.size();
+  scratch.run_notes.count =
+      loops.pull_runs(bodies, group.run_ends.data(), group.run_lanes.data(), static_cast<int>(runs),
+                      scratch.run_notes.roomFor(runs));
+  scratch.loose_notes.count = 0;
+  if (loose == 0)
+  {
+    return;
+  }
+  auto& [position, velocity, force] = scratch.records;
+  pack(bodies.position, group.particles, position);
+  pack(bodies.velocity, group.particles, velocity);
+  pack(bodies.force, group.particles, force);
+  scratch.loose_notes.count = loops.pull_records(
+      { position.data(), velocity.data(), force.data() }, group.loose_ends.data(),
+      group.loose_lanes.data(), static_cast<int>(loose), scratch.loose_notes.roomFor(loose));
+  unpack(force, group.particles, bodies.force);
+}
+
+void ForceSprings::integrate(ParticleState& state, const Vec3Array& acceleration, Range range,
+                             Real dt)
+{
+  const int first = range.begin;
+  for (int k = 0; k < 3; ++k)
+  {
+    kernels::best().integrate(state.position.axis(k) + first, state.velocity.axis(k) + first,
+                              acceleration.axis(k) + first, force_.axis(k) + first,
+                              state.inverse_mass.data() + first, inverse_mass_limit_.data() + first,
+                              held_.axis(k) + first, dt, range.end - first);
+  }
+}
+
+/// What treating light particles as heavier adds to the momentum of a substep.
+void ForceSprings::addImpulse(const ParticleState& state, Real dt)
+{
+  if (!kernels::best().above(state.inverse_mass.data(), inverse_mass_limit_.data(), state.size()))
+  {
+    return;
+  }
+  for (int i = 0; i < state.size(); ++i)
+  {
+    if (state.inverse_mass[i] > inverse_mass_limit_[i])
     {
-      addForces(state, springs.structural, unseen);
-    }
-    addForces(state, springs.bend_shear, unseen);
-    for (int i = 0; i < state.size(); ++i)
-    {
-      if (state.inverse_mass[i] > 0)
-      {
-        const Real inverse_mass = std::min(state.inverse_mass[i], inverse_mass_limit_[i]);
-        state.velocity[i] += h * (acceleration[i] + inverse_mass * force_[i]);
-        state.position[i] += h * state.velocity[i];
-        if (inverse_mass < state.inverse_mass[i])
-        {
-          const Real share = inverse_mass / state.inverse_mass[i] - Real(1);
-          added_impulse_ += (h * share * force_[i]).cast<double>();
-        }
-      }
-      else
-      {
-        held_[i] += force_[i];
-      }
+      const Real share = inverse_mass_limit_[i] / state.inverse_mass[i] - Real(1);
+      added_impulse_ += (dt * share * force_[i]).cast<double>();
     }
   }
 }
 
 void ForceSprings::limitStrain(ParticleState& state, const SpringTable& springs)
 {
+  arrange(springs, state.size());
   const auto most = static_cast<Real>(1.0 + params_.max_strain);
-  limited_ = 0;
-  for (const SpringLaw& spring : springs.structural)
+  const kernels::Places places = { { state.position.axis(0), state.position.axis(1),
+                                     state.position.axis(2) },
+                                   state.inverse_mass.data() };
+  forGroups([&](int g, Scratch& scratch)
+            { scratch.drawn = draw(groups()[g], scratch, places, most); });
+}
+
+int ForceSprings::draw(const SpringGroup& group, Scratch& scratch, const kernels::Places& places,
+                       float most)
+{
+  const kernels::Set& loops = kernels::best();
+  const int drawn = loops.draw_runs(places, group.run_ends.data(), group.run_lanes.data(), most,
+                                    static_cast<int>(group.run_ends.size()));
+  if (group.loose_ends.empty())
   {
-    if (!spring.active())
-    {
-      continue;
-    }
-    const Real wa = state.inverse_mass[spring.a];
-    const Real wb = state.inverse_mass[spring.b];
-    auto a = state.position[spring.a];
-    auto b = state.position[spring.b];
-    const Vec3 d = b - a;
-    const Real limit = most * spring.rest;
-    const Real squared = d.squaredNorm();
-    if (!(squared > limit * limit) || !(wa + wb > 0))
-    {
-      continue;
-    }
-    ++limited_;
-    // Half each, as in the thesis, unless one end is held.
-    const Vec3 correction = (Real(1) - limit / std::sqrt(squared)) * d;
-    const Real share = wa > 0 && wb > 0 ? Real(0.5) : Real(1);
-    if (wa > 0)
-    {
-      a += share * correction;
-    }
-    if (wb > 0)
-    {
-      b -= share * correction;
-    }
+    return drawn;
   }
+  auto& place = scratch.records[0];
+  pack(places.position, group.particles, place);
+  packMasses(places.inverse_mass, group.particles, place);
+  const int loose =
+      loops.draw_records(place.data(), group.loose_ends.data(), group.loose_lanes.data(), most,
+                         static_cast<int>(group.loose_ends.size()));
+  if (loose > 0)
+  {
+    unpack(place, group.particles, places.position);
+  }
+  return drawn + loose;
 }
 
 Stability ForceSprings::checkStability(const ParticleState& state, const SpringTable& springs,
@@ -173,8 +185,17 @@ Stability ForceSprings::checkStability(const ParticleState& state, const SpringT
   return stability;
 }
 
+SolverMemory ForceSprings::memory() const
+{
+  SolverMemory memory = BlockSolver::memory();
+  memory.substeps = substeps_;
+  memory.inverse_mass_limit = inverse_mass_limit_;
+  return memory;
+}
+
 void ForceSprings::recall(const SolverMemory& memory)
 {
+  BlockSolver::recall(memory);
   substeps_ = memory.substeps;
   inverse_mass_limit_ = memory.inverse_mass_limit;
 }

@@ -1,9 +1,6 @@
 // Gravity, air friction and wind as accelerations.
 #include "cloth_tearing/core/forces.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "cloth_tearing/core/kernels.h"
 
 namespace cloth
@@ -11,42 +8,32 @@ namespace cloth
 namespace
 {
 
-void addWind(const Cloth& cloth, const Environment& environment, Vec3Array& acceleration)
+using kernels::LANES;
+
+/// Triangles in no run, as many at a time as there are lanes.
+void blowOnLoose(const Cloth& cloth, const std::vector<int>& triangles, const kernels::Air& air)
 {
-  const Vec3 wind = environment.wind.cast<Real>();
-  const auto drag = static_cast<Real>(environment.wind_drag);
-  const ParticleState& state = cloth.state;
-  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
+  for (std::size_t first = 0; first < triangles.size(); first += LANES)
   {
-    const auto& corners = cloth.mesh.triangle({ i }).particles;
-    const int a = corners[0].index;
-    const int b = corners[1].index;
-    const int c = corners[2].index;
-    const Vec3 normal = (state.position[b] - state.position[a])
-                            .cross(state.position[c] - state.position[a]);  // twice the area long
-    const Real twice_area = std::sqrt(normal.squaredNorm());
-    if (!(twice_area > 0))
+    kernels::TriangleEnds ends{};
+    kernels::Areas areas{};
+    for (std::size_t i = first; i < triangles.size() && i < first + LANES; ++i)
     {
-      continue;
+      const auto& p = cloth.mesh.triangle({ triangles[i] }).particles;
+      const std::size_t lane = i - first;
+      ends.a[lane] = p[0].index;
+      ends.b[lane] = p[1].index;
+      ends.c[lane] = p[2].index;
+      areas.area[lane] = static_cast<float>(cloth.rest.area[triangles[i]]);
     }
-    const Vec3 velocity = (state.velocity[a] + state.velocity[b] + state.velocity[c]) / Real(3);
-    const Real normal_speed = (wind - velocity).dot(normal) / twice_area;
-    // Overstretched cloth has grown by its holes: no more than its rest area resists the air.
-    const auto area = std::min(twice_area / Real(2), static_cast<Real>(cloth.rest.area[i]));
-    const Vec3 on_corner = (drag * normal_speed * area / (Real(3) * twice_area)) * normal;
-    for (int p : { a, b, c })
-    {
-      const Real inverse_mass = state.inverse_mass[p] > 0
-                                    ? state.inverse_mass[p]
-                                    : static_cast<Real>(1.0 / cloth.rest.mass[p]);
-      acceleration[p] += inverse_mass * on_corner;
-    }
+    kernels::best().blow_ends(air, ends, areas);
   }
 }
 
 }  // namespace
 
-void outerAccelerations(const Cloth& cloth, const Environment& environment, Vec3Array& acceleration)
+void OuterForces::accelerate(const Cloth& cloth, const Mesh& untorn, const Environment& environment,
+                             Vec3Array& acceleration)
 {
   const ParticleState& state = cloth.state;
   const Vec3 gravity = environment.gravity.cast<Real>();
@@ -59,7 +46,52 @@ void outerAccelerations(const Cloth& cloth, const Environment& environment, Vec3
   }
   if (environment.wind_drag > 0.0)
   {
+    if (!triangles_.made())
+    {
+      triangles_ = TriangleRuns(untorn);
+    }
+    follow(cloth);
     addWind(cloth, environment, acceleration);
+  }
+}
+
+void OuterForces::follow(const Cloth& cloth)
+{
+  if (triangles_.made())
+  {
+    triangles_.follow(cloth.mesh, cloth.rest, cloth.springs);
+  }
+}
+
+void OuterForces::addWind(const Cloth& cloth, const Environment& environment,
+                          Vec3Array& acceleration)
+{
+  const ParticleState& state = cloth.state;
+  force_.resize(state.size());
+  force_.setZero();
+  kernels::Air air{};
+  air.drag = static_cast<float>(environment.wind_drag);
+  for (int k = 0; k < 3; ++k)
+  {
+    air.position[k] = state.position.axis(k);
+    air.velocity[k] = state.velocity.axis(k);
+    air.force[k] = force_.axis(k);
+    air.wind[k] = static_cast<float>(environment.wind[k]);
+  }
+  kernels::best().blow_runs(air, triangles_.runs().data(), triangles_.areas().data(),
+                            static_cast<int>(triangles_.runs().size()));
+  blowOnLoose(cloth, triangles_.loose(), air);
+  for (int k = 0; k < 3; ++k)
+  {
+    kernels::best().add_force(acceleration.axis(k), force_.axis(k), state.inverse_mass.data(),
+                              state.size());
+  }
+  for (int i = 0; i < state.size(); ++i)
+  {
+    if (!(state.inverse_mass[i] > 0))
+    {
+      acceleration[i] += static_cast<Real>(1.0 / cloth.rest.mass[i]) * force_[i];
+    }
   }
 }
 

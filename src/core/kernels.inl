@@ -248,6 +248,11 @@ struct FourVectors
   Vector x, y, z, w;
 };
 
+inline End endOf(const FourVectors& v)
+{
+  return { v.x, v.y, v.z };
+}
+
 #if defined(__AVX512F__)
 
 inline __m512 fourRecords(const Record* records, const int* index)
@@ -401,12 +406,10 @@ int sweepRecords(const Records& records, float* const held[3], const RecordEnds*
       const FourVectors way_b = loadRecords(records.way, b);
       const FourVectors start_a = loadRecords(records.start, a);
       const FourVectors start_b = loadRecords(records.start, b);
-      const End from_a = { way_a.x, way_a.y, way_a.z };
-      const End from_b = { way_b.x, way_b.y, way_b.z };
-      const Pull pull = pullOf(from_a, from_b, { start_a.x, start_a.y, start_a.z },
-                               { start_b.x, start_b.y, start_b.z }, way_a.w, way_b.w, lanes[i], lane, dt);
-      storeRecords(records.way, a, moved(from_a, way_a.w * pull.factor, pull.d), way_a.w);
-      storeRecords(records.way, b, moved(from_b, -way_b.w * pull.factor, pull.d), way_b.w);
+      const Pull pull = pullOf(endOf(way_a), endOf(way_b), endOf(start_a), endOf(start_b), way_a.w,
+                               way_b.w, lanes[i], lane, dt);
+      storeRecords(records.way, a, moved(endOf(way_a), way_a.w * pull.factor, pull.d), way_a.w);
+      storeRecords(records.way, b, moved(endOf(way_b), -way_b.w * pull.factor, pull.d), way_b.w);
       if (__builtin_expect(any(pull.over), 0))
       {
         over |= bitsOf(pull.over) << lane;
@@ -423,6 +426,267 @@ int sweepRecords(const Records& records, float* const held[3], const RecordEnds*
     }
   }
   return noted;
+}
+
+// -- forces of springs -----------------------------------------------------------------------------
+
+struct Force
+{
+  End d;          ///< from end to end
+  Vector factor;  ///< by d, the force on the first end [N/m]
+  Mask over;      ///< longer than the limit
+};
+
+inline Force forceOf(const End& a, const End& b, const End& velocity_a, const End& velocity_b,
+                     const Lanes& lanes, int lane)
+{
+  Force force;
+  force.d = b - a;
+  const Vector squared = dot(force.d, force.d);
+  const Vector length = root(squared);
+  const Vector above = load(lanes.stiffness + lane) * (length * (length - load(lanes.rest + lane))) +
+                       load(lanes.damping + lane) * dot(force.d, velocity_b - velocity_a);
+  force.factor = squared > Vector{} ? above / squared : Vector{};
+  force.over = ~(squared <= load(lanes.limit + lane));  // a NaN must not hide
+  return force;
+}
+
+int pullRuns(const Bodies& bodies, const RunEnds* ends, const Lanes* lanes, int count, Note* notes)
+{
+  int noted = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    unsigned over = 0;
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int a = ends[i].a + lane;
+      const int b = ends[i].b + lane;
+      const Force force =
+          forceOf(loadEnd(bodies.position, a), loadEnd(bodies.position, b),
+                  loadEnd(bodies.velocity, a), loadEnd(bodies.velocity, b), lanes[i], lane);
+      storeEnd(bodies.force, a, moved(loadEnd(bodies.force, a), force.factor, force.d));
+      storeEnd(bodies.force, b, moved(loadEnd(bodies.force, b), -force.factor, force.d));
+      if (__builtin_expect(any(force.over), 0))
+      {
+        over |= bitsOf(force.over) << lane;
+      }
+    }
+    if (__builtin_expect(over != 0, 0))
+    {
+      notes[noted++] = { i, over };
+    }
+  }
+  return noted;
+}
+
+int pullRecords(const BodyRecords& records, const RecordEnds* ends, const Lanes* lanes, int count,
+                Note* notes)
+{
+  int noted = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    unsigned over = 0;
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int* a = ends[i].a + lane;
+      const int* b = ends[i].b + lane;
+      const Force force = forceOf(
+          endOf(loadRecords(records.position, a)), endOf(loadRecords(records.position, b)),
+          endOf(loadRecords(records.velocity, a)), endOf(loadRecords(records.velocity, b)),
+          lanes[i], lane);
+      const End on_a = endOf(loadRecords(records.force, a));
+      const End on_b = endOf(loadRecords(records.force, b));
+      storeRecords(records.force, a, moved(on_a, force.factor, force.d), Vector{});
+      storeRecords(records.force, b, moved(on_b, -force.factor, force.d), Vector{});
+      if (__builtin_expect(any(force.over), 0))
+      {
+        over |= bitsOf(force.over) << lane;
+      }
+    }
+    if (__builtin_expect(over != 0, 0))
+    {
+      notes[noted++] = { i, over };
+    }
+  }
+  return noted;
+}
+
+// -- the limiter -----------------------------------------------------------------------------------
+
+struct Excess
+{
+  End d;             ///< from end to end
+  Vector by_a, by_b;  ///< how far each end moves, by d
+  Mask over;         ///< longer than allowed
+};
+
+inline Excess excessOf(const End& a, const End& b, Vector wa, Vector wb, const Lanes& lanes,
+                       int lane, float most)
+{
+  const Vector zero = Vector{};
+  const Vector limit = most * load(lanes.rest + lane);
+  Excess excess;
+  excess.d = b - a;
+  const Vector squared = dot(excess.d, excess.d);
+  excess.over = (squared > limit * limit) & (wa + wb > zero) &
+                (limit > zero) & (load(lanes.limit + lane) < zero + __builtin_inff());
+  const Vector excess_part = 1.0f - limit / root(squared);
+  const Vector share = (wa > zero) & (wb > zero) ? zero + 0.5f : zero + 1.0f;
+  excess.by_a = excess.over & (wa > zero) ? share * excess_part : zero;
+  excess.by_b = excess.over & (wb > zero) ? -(share * excess_part) : zero;
+  return excess;
+}
+
+int drawRuns(const Places& places, const RunEnds* ends, const Lanes* lanes, float most, int count)
+{
+  int drawn = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int a = ends[i].a + lane;
+      const int b = ends[i].b + lane;
+      const End at_a = loadEnd(places.position, a);
+      const Excess excess =
+          excessOf(at_a, loadEnd(places.position, b), load(places.inverse_mass + a),
+                   load(places.inverse_mass + b), lanes[i], lane, most);
+      if (__builtin_expect(any(excess.over), 0))
+      {
+        storeEnd(places.position, a, moved(at_a, excess.by_a, excess.d));
+        storeEnd(places.position, b, moved(loadEnd(places.position, b), excess.by_b, excess.d));
+        drawn += __builtin_popcount(bitsOf(excess.over));
+      }
+    }
+  }
+  return drawn;
+}
+
+int drawRecords(Record* place, const RecordEnds* ends, const Lanes* lanes, float most, int count)
+{
+  int drawn = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int* a = ends[i].a + lane;
+      const int* b = ends[i].b + lane;
+      const FourVectors at_a = loadRecords(place, a);
+      const FourVectors at_b = loadRecords(place, b);
+      const Excess excess =
+          excessOf(endOf(at_a), endOf(at_b), at_a.w, at_b.w, lanes[i], lane, most);
+      if (__builtin_expect(any(excess.over), 0))
+      {
+        storeRecords(place, a, moved(endOf(at_a), excess.by_a, excess.d), at_a.w);
+        storeRecords(place, b, moved(endOf(at_b), excess.by_b, excess.d), at_b.w);
+        drawn += __builtin_popcount(bitsOf(excess.over));
+      }
+    }
+  }
+  return drawn;
+}
+
+// -- wind ------------------------------------------------------------------------------------------
+
+inline End cross(const End& a, const End& b)
+{
+  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+struct Push
+{
+  End normal;     ///< of a triangle, as long as twice its area [m^2]
+  Vector factor;  ///< by it, the force on each corner [N/m^2]
+};
+
+/// Corners and their velocities.
+struct Corners
+{
+  End a, b, c, velocity_a, velocity_b, velocity_c;
+};
+
+inline Push pushOf(const Corners& corners, const Air& air, Vector rest_area)
+{
+  const Vector zero = Vector{};
+  const End& va = corners.velocity_a;
+  const End& vb = corners.velocity_b;
+  const End& vc = corners.velocity_c;
+  const float third = 1.0f / 3.0f;
+  const End against = { air.wind[0] - third * (va.x + vb.x + vc.x),
+                        air.wind[1] - third * (va.y + vb.y + vc.y),
+                        air.wind[2] - third * (va.z + vb.z + vc.z) };
+  Push push;
+  push.normal = cross(corners.b - corners.a, corners.c - corners.a);
+  const Vector squared = dot(push.normal, push.normal);
+  // Overstretched cloth has grown by its holes: no more than its rest area resists the air.
+  const Vector area = 0.5f * root(squared);
+  const Vector resists = area < rest_area ? area : rest_area;
+  push.factor = squared > zero ? air.drag * third * resists * dot(against, push.normal) / squared
+                               : zero;
+  return push;
+}
+
+void blowRuns(const Air& air, const TriangleRun* runs, const Areas* areas, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    for (int lane = 0; lane < LANES; lane += WIDTH)
+    {
+      const int a = runs[i].a + lane;
+      const int b = runs[i].b + lane;
+      const int c = runs[i].c + lane;
+      const Push push = pushOf({ loadEnd(air.position, a), loadEnd(air.position, b),
+                                 loadEnd(air.position, c), loadEnd(air.velocity, a),
+                                 loadEnd(air.velocity, b), loadEnd(air.velocity, c) },
+                               air, load(areas[i].area + lane));
+      // One after the other: the three stretches may overlap.
+      const int corners[3] = { a, b, c };
+      for (int corner : corners)
+      {
+        storeEnd(air.force, corner, moved(loadEnd(air.force, corner), push.factor, push.normal));
+      }
+    }
+  }
+}
+
+inline End gather(const float* const axes[3], const int* index)
+{
+  End end;
+  for (int i = 0; i < WIDTH; ++i)
+  {
+    end.x[i] = axes[0][index[i]];
+    end.y[i] = axes[1][index[i]];
+    end.z[i] = axes[2][index[i]];
+  }
+  return end;
+}
+
+void blowEnds(const Air& air, const TriangleEnds& ends, const Areas& areas)
+{
+  for (int lane = 0; lane < LANES; lane += WIDTH)
+  {
+    const int* a = ends.a + lane;
+    const int* b = ends.b + lane;
+    const int* c = ends.c + lane;
+    const Push push = pushOf({ gather(air.position, a), gather(air.position, b),
+                               gather(air.position, c), gather(air.velocity, a),
+                               gather(air.velocity, b), gather(air.velocity, c) },
+                             air, load(areas.area + lane));
+    float force[3][WIDTH];
+    store(force[0], push.factor * push.normal.x);
+    store(force[1], push.factor * push.normal.y);
+    store(force[2], push.factor * push.normal.z);
+    for (int i = 0; i < WIDTH; ++i)
+    {
+      const int corners[3] = { a[i], b[i], c[i] };
+      for (int corner : corners)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          air.force[k][corner] += force[k][i];
+        }
+      }
+    }
+  }
 }
 
 // -- particle by particle --------------------------------------------------------------------------
@@ -459,6 +723,43 @@ void accelerate(float* __restrict acceleration, const float* __restrict velocity
   }
 }
 
+void addForce(float* __restrict acceleration, const float* __restrict force,
+              const float* __restrict inverse_mass, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    acceleration[i] += inverse_mass[i] * force[i];
+  }
+}
+
+unsigned sides(const float* const start[3], const float* const position[3], const float low[3],
+               const float high[3], unsigned char* __restrict sides, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    sides[i] = 0;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const float* __restrict from = start[k];
+    const float* __restrict to = position[k];
+    const int below = 1 << (2 * k);
+    const int above = 2 << (2 * k);
+    for (int i = 0; i < count; ++i)
+    {
+      const int is_below = (from[i] < low[k]) & (to[i] < low[k]) ? below : 0;
+      const int is_above = (from[i] > high[k]) & (to[i] > high[k]) ? above : 0;
+      sides[i] = static_cast<unsigned char>(sides[i] | is_below | is_above);
+    }
+  }
+  unsigned all = 0xff;
+  for (int i = 0; i < count; ++i)
+  {
+    all &= sides[i];
+  }
+  return all;
+}
+
 bool calm(const float* const position[3], const float* const velocity[3], float limit, int count)
 {
   int wild = 0;
@@ -472,6 +773,34 @@ bool calm(const float* const position[3], const float* const velocity[3], float 
   return wild == 0;
 }
 
-constexpr Set SET = { NAME, sweepRuns, sweepRecords, accelerate, calm, predict, finish };
+bool above(const float* __restrict values, const float* __restrict limits, int count)
+{
+  int found = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    found |= static_cast<int>(values[i] > limits[i]);
+  }
+  return found != 0;
+}
+
+void integrate(float* __restrict position, float* __restrict velocity,
+               const float* __restrict acceleration, const float* __restrict force,
+               const float* __restrict inverse_mass, const float* __restrict limit,
+               float* __restrict held, float dt, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const bool moves = inverse_mass[i] > 0;
+    const float w = inverse_mass[i] < limit[i] ? inverse_mass[i] : limit[i];
+    const float after = velocity[i] + dt * (acceleration[i] + w * force[i]);
+    const float there = position[i] + dt * after;
+    velocity[i] = moves ? after : velocity[i];
+    position[i] = moves ? there : position[i];
+    held[i] = moves ? held[i] : held[i] + force[i];
+  }
+}
+
+constexpr Set SET = { NAME,     sweepRuns, sweepRecords, pullRuns, pullRecords, drawRuns,
+                      drawRecords, blowRuns, blowEnds, accelerate, addForce, sides, calm, predict, finish, above, integrate };
 
 // NOLINTEND

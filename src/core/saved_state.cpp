@@ -120,6 +120,7 @@ Simulation Simulation::restored(const std::string& bytes) const
   refuseUnsound(next.cloth_, next.grippers_.all());
   refuseUnsound(next.spheres_.all());
 
+  next.outer_.startOver();
   next.solver_->shareWork(workers_);
   next.tearing_ = Tearing(next.params_.tearing);
   next.watchSprings();

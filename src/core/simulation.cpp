@@ -151,7 +151,7 @@ StepReport Simulation::step(StepObserver* observer)
   // Held particles follow their grippers.
   grippers_.carry(cloth_.state, dt, { params_.max_gripper_speed, params_.max_gripper_turn });
   enter(StepPhase::ADVANCE);
-  outerAccelerations(cloth_, params_.environment, acceleration_);  // gravity, air, wind (2.1.1)
+  outer_.accelerate(cloth_, untorn_.mesh, params_.environment, acceleration_);  // (2.1.1)
   solver_->advance(cloth_.state, cloth_.springs, acceleration_, dt);
   enter(StepPhase::LIMIT);
   solver_->limitStrain(cloth_.state, cloth_.springs);  // woven cloth hardly stretches (2.1.1)
@@ -192,16 +192,34 @@ StepReport Simulation::step(StepObserver* observer)
     append(report.notes, loose_pieces_.rest(cloth_, params_.contact));
   }
   solver_->follow(cloth_.springs, cloth_.state.size());
+  outer_.follow(cloth_);
   cloth_.springs.changes.forget();
   return report;
 }
 
 double Simulation::scan()
 {
-  // A push may overstretch a slack spring in one step: then look at all.
-  const bool pushed = !spheres_.all().empty() || params_.contact.floor;
-  return pushed || !params_.tearing.enabled ? tearing_.scan(cloth_)
-                                            : tearing_.scan(cloth_, solver_->stretched());
+  // A push may overstretch a slack spring in one step. Many pushed: looking at all costs less.
+  const std::vector<int>& pushed = contact_.pushed();
+  if (!params_.tearing.enabled || 8 * static_cast<int>(pushed.size()) > cloth_.state.size())
+  {
+    return tearing_.scan(cloth_);
+  }
+  suspects_ = solver_->stretched();
+  for (int p : pushed)
+  {
+    cloth_.mesh.forEachTriangleAt({ p },
+                                  [this](TriangleId t)
+                                  {
+                                    for (SpringId s : cloth_.mesh.triangle(t).springs)
+                                    {
+                                      suspects_.push_back(s.index);
+                                    }
+                                  });
+  }
+  std::sort(suspects_.begin(), suspects_.end());
+  suspects_.erase(std::unique(suspects_.begin(), suspects_.end()), suspects_.end());
+  return tearing_.scan(cloth_, suspects_);
 }
 
 void Simulation::makeSolver()
@@ -387,6 +405,7 @@ void Simulation::startOver(const std::string& why)
   grippers_.releaseAll(cloth_, why);
   publish();
   cloth_ = untorn_;
+  outer_.startOver();
   makeSolver();
   watchSprings();
   stability_ = findStability();

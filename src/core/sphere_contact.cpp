@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/kernels.h"
 
 namespace cloth
 {
@@ -125,19 +126,6 @@ bool firstTouch(const Corners& corners, Real reach, Contact& contact)
   return false;
 }
 
-/// Axis-aligned overlap of a triangle's swept box with a sphere's.
-bool mayTouch(const ParticleState& state, const Triangle& t, const Vec3& low, const Vec3& high)
-{
-  Vec3 least = state.position[t.particles[0].index];
-  Vec3 most = least;
-  for (ParticleId p : t.particles)
-  {
-    least = least.cwiseMin(state.position[p.index]).cwiseMin(state.previous[p.index]);
-    most = most.cwiseMax(state.position[p.index]).cwiseMax(state.previous[p.index]);
-  }
-  return (least.array() <= high.array()).all() && (most.array() >= low.array()).all();
-}
-
 /// Velocity change that keeps two things from approaching along `normal`, and rubs.
 Vec3 velocityChange(const Vec3& relative, const Vec3& normal, Real friction)
 {
@@ -150,32 +138,6 @@ Vec3 velocityChange(const Vec3& relative, const Vec3& normal, Real friction)
   const Real slip_speed = std::sqrt(slip.squaredNorm());
   const Real rubbed = std::min(slip_speed, friction * approach);
   return approach * normal - (slip_speed > 0 ? Vec3(rubbed / slip_speed * slip) : Vec3::Zero());
-}
-
-/// @return what it does to the momentum of the cloth [N s]
-Vec3d resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
-{
-  Vec3d impulse = Vec3d::Zero();
-  const auto h = static_cast<Real>(dt);
-  const auto height = static_cast<Real>(params.floor_height + params.thickness);
-  const auto friction = static_cast<Real>(params.floor_friction);
-  const Real push = static_cast<Real>(params.push_speed) * h;  // for cloth that was below it
-  ParticleState& state = cloth.state;
-  for (int i = 0; i < state.size(); ++i)
-  {
-    const Real z = state.position[i].z();
-    if (z < height && state.inverse_mass[i] > 0)
-    {
-      const Vec3 change = velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
-      state.velocity[i] += change;
-      impulse += change.cast<double>() / state.inverse_mass[i];
-      // What rubs off the speed rubs off the way too; what sticks has not moved at all.
-      const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
-      state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + h * change);
-      state.position[i].z() = std::max(z, std::min(height, state.previous[i].z() + push));
-    }
-  }
-  return impulse;
 }
 
 /// The largest inverse mass of a corner; 0 if all are held.
@@ -452,6 +414,7 @@ void SphereContact::resolve(Cloth& cloth, std::vector<Sphere>& spheres, const Co
                             double dt)
 {
   impulse_.setZero();
+  pushed_.clear();
   for (Sphere& sphere : spheres)
   {
     sphere.force.setZero();
@@ -464,24 +427,68 @@ void SphereContact::resolve(Cloth& cloth, std::vector<Sphere>& spheres, const Co
   }
 }
 
-void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params,
-                                  double dt)
+/// Triangles whose swept box overlaps the sphere's: not all three corners stay beyond the same
+/// side.
+void SphereContact::findNear(const Cloth& cloth, const Sphere& sphere, const ContactParams& params)
 {
-  ParticleState& state = cloth.state;
+  const ParticleState& state = cloth.state;
   const auto reach = static_cast<Real>(sphere.radius + params.thickness);
   const Vec3 start = sphere.previous.cast<Real>();
   const Vec3 end = sphere.center.cast<Real>();
   const Vec3 low = start.cwiseMin(end).array() - reach;
   const Vec3 high = start.cwiseMax(end).array() + reach;
   near_.clear();
+  sides_.resize(state.size());
+  if (kernels::best().sides(state.previous.axes().data(), state.position.axes().data(), low.data(),
+                            high.data(), sides_.data(), state.size()) != 0)
+  {
+    return;
+  }
   for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
   {
-    const Triangle& t = cloth.mesh.triangle({ i });
-    if (mayTouch(state, t, low, high) && !cloth.damage.at_rest[t.particles[0].index])
+    const auto& p = cloth.mesh.triangle({ i }).particles;
+    const int beyond = sides_[p[0].index] & sides_[p[1].index] & sides_[p[2].index];
+    if (beyond == 0 && !cloth.damage.at_rest[p[0].index])
     {
       near_.push_back({ i });
+      pushed_.insert(pushed_.end(), { p[0].index, p[1].index, p[2].index });
     }
   }
+}
+
+/// @return what it does to the momentum of the cloth [N s]
+Vec3d SphereContact::resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
+{
+  Vec3d impulse = Vec3d::Zero();
+  const auto h = static_cast<Real>(dt);
+  const auto height = static_cast<Real>(params.floor_height + params.thickness);
+  const auto friction = static_cast<Real>(params.floor_friction);
+  const Real push = static_cast<Real>(params.push_speed) * h;  // for cloth that was below it
+  ParticleState& state = cloth.state;
+  for (int i = 0; i < state.size(); ++i)
+  {
+    const Real z = state.position[i].z();
+    if (z < height && state.inverse_mass[i] > 0)
+    {
+      pushed_.push_back(i);
+      const Vec3 change = velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
+      state.velocity[i] += change;
+      impulse += change.cast<double>() / state.inverse_mass[i];
+      // What rubs off the speed rubs off the way too; what sticks has not moved at all.
+      const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
+      state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + h * change);
+      state.position[i].z() = std::max(z, std::min(height, state.previous[i].z() + push));
+    }
+  }
+  return impulse;
+}
+
+void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params,
+                                  double dt)
+{
+  ParticleState& state = cloth.state;
+  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
+  findNear(cloth, sphere, params);
 
   if (sphere.fresh)
   {

@@ -25,7 +25,7 @@ void clearLane(kernels::Lanes& lanes, int lane)
   lanes.rest[lane] = 0;
   lanes.stiffness[lane] = 0;
   lanes.damping[lane] = 0;
-  lanes.limit[lane] = std::numeric_limits<float>::max();
+  lanes.limit[lane] = std::numeric_limits<float>::infinity();
 }
 
 kernels::Lanes noLanes()

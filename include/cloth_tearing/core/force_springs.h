@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cloth_tearing/core/solver.h"
+#include "cloth_tearing/core/block_solver.h"
 
 namespace cloth
 {
@@ -11,7 +11,7 @@ namespace cloth
 /// Damped springs, symplectic Euler and a limiter of positions (2.1.1, 3.1.2). Cuts the step into
 /// substeps where the stiffest particle asks for it; where these run out, slivers of a tear are
 /// treated as heavier than they are (their true mass is still what is reported).
-class ForceSprings : public Solver
+class ForceSprings : public BlockSolver
 {
 public:
   explicit ForceSprings(const SolverParams& params);
@@ -21,20 +21,23 @@ public:
                double dt) override;
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
   Vec3d addedImpulse() const override { return added_impulse_; }
-  int limited() const override { return limited_; }
+  int limited() const override { return drawn(); }
   Stability checkStability(const ParticleState& state, const SpringTable& springs, double dt,
                            double air_rate) override;
-  SolverMemory memory() const override { return { substeps_, inverse_mass_limit_, {} }; }
+  SolverMemory memory() const override;
   void recall(const SolverMemory& memory) override;
 
 private:
-  template <class See>
-  void addForces(const ParticleState& state, const std::vector<SpringLaw>& springs, const See& see);
+  static void pull(const SpringGroup& group, Scratch& scratch, const kernels::Bodies& bodies);
+  static int draw(const SpringGroup& group, Scratch& scratch, const kernels::Places& places,
+                  float most);
+  void addForces(const ParticleState& state);
+  void integrate(ParticleState& state, const Vec3Array& acceleration, Range range, Real dt);
+  void addImpulse(const ParticleState& state, Real dt);
   void sumStiffness(const ParticleState& state, const SpringTable& springs);
 
   SolverParams params_;
   int substeps_ = 1;
-  int limited_ = 0;                       ///< springs that limitStrain() drew together
   Vec3d added_impulse_ = Vec3d::Zero();   ///< on slivers treated as heavier than they are [N s]
   Vec3Array force_;                       ///< by particle [N]
   std::vector<Real> inverse_mass_limit_;  ///< by particle [1/kg]: lighter ones are treated as this

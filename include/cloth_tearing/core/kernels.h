@@ -13,8 +13,8 @@ namespace kernels
 /// a particle, so that no result depends on that width.
 constexpr int LANES = 16;
 
-/// What the springs of a block are, each array by lane. A lane without a spring has no stiffness,
-/// no damping and the largest limit.
+/// What the springs of a block are, each array by lane. A lane without a spring has no stiffness
+/// and no damping. Those that are no structural springs have an infinite limit.
 struct alignas(64) Lanes
 {
   float rest[LANES];       ///< rest length [m]
@@ -70,6 +70,60 @@ struct Records
   const int* particle;  ///< of each record
 };
 
+/// The particles as forces see them.
+struct Bodies
+{
+  const float* position[3];  ///< x, y, z [m]
+  const float* velocity[3];  ///< [m/s]
+  float* force[3];           ///< sums up [N]
+};
+
+struct BodyRecords
+{
+  const Record* position;
+  const Record* velocity;
+  Record* force;
+};
+
+/// Triangles of particles `a`, `b` and `c`, of `a` + 1, `b` + 1 and `c` + 1, ...: lane by lane.
+struct TriangleRun
+{
+  int a;
+  int b;
+  int c;
+};
+
+/// Triangles of any particles.
+struct TriangleEnds
+{
+  int a[LANES];
+  int b[LANES];
+  int c[LANES];
+};
+
+/// Rest areas of the triangles in the lanes [m^2]; 0: none there.
+struct alignas(64) Areas
+{
+  float area[LANES];
+};
+
+/// The particles as the wind sees them.
+struct Air
+{
+  const float* position[3];  ///< x, y, z [m]
+  const float* velocity[3];  ///< [m/s]
+  float* force[3];           ///< sums up [N]
+  float wind[3];             ///< [m/s]
+  float drag;                ///< pressure per normal speed [N s/m^3]
+};
+
+/// The particles as the limiter sees them.
+struct Places
+{
+  float* position[3];         ///< x, y, z [m]
+  const float* inverse_mass;  ///< [1/kg]
+};
+
 /// The loops for one instruction set.
 struct Set
 {
@@ -83,9 +137,38 @@ struct Set
   int (*sweep_records)(const Records& records, float* const held[3], const RecordEnds* ends,
                        const Lanes* lanes, int count, float dt, Note* notes);
 
+  /// Adds the forces of damped springs to their ends (thesis 2.1.1).
+  /// @param notes as above, of lengths when the loop comes to them
+  int (*pull_runs)(const Bodies& bodies, const RunEnds* ends, const Lanes* lanes, int count,
+                   Note* notes);
+  int (*pull_records)(const BodyRecords& records, const RecordEnds* ends, const Lanes* lanes,
+                      int count, Note* notes);
+
+  /// Draws structural springs together that are longer than `most` rest lengths, one block after
+  /// the other (Provot 1995): half each end, or all where the other does not move.
+  /// @return how many they were
+  int (*draw_runs)(const Places& places, const RunEnds* ends, const Lanes* lanes, float most,
+                   int count);
+  /// @param place w: inverse mass
+  int (*draw_records)(Record* place, const RecordEnds* ends, const Lanes* lanes, float most,
+                      int count);
+
+  /// Adds what the wind does to triangles to their corners (Provot 1995).
+  void (*blow_runs)(const Air& air, const TriangleRun* runs, const Areas* areas, int count);
+  void (*blow_ends)(const Air& air, const TriangleEnds& ends, const Areas& areas);
+
   /// acceleration = outer - friction * velocity for `count` numbers of one axis.
   void (*accelerate)(float* acceleration, const float* velocity, float outer, float friction,
                      int count);
+
+  /// acceleration += force inverse_mass for `count` numbers of one axis.
+  void (*add_force)(float* acceleration, const float* force, const float* inverse_mass, int count);
+
+  /// Of each particle on which sides of a box it has been all the step, from `start` to `position`:
+  /// a bit for each of the six.
+  /// @return sides on which they all have
+  unsigned (*sides)(const float* const start[3], const float* const position[3], const float low[3],
+                    const float high[3], unsigned char* sides, int count);
 
   /// Whether all particles have places that are numbers and squared speeds of at most `limit`.
   bool (*calm)(const float* const position[3], const float* const velocity[3], float limit,
@@ -99,6 +182,15 @@ struct Set
   /// position = start + way, velocity = way / dt where inverse mass is above 0.
   void (*finish)(const float* way, const float* start, const float* inverse_mass, float dt,
                  float* position, float* velocity, int count);
+  /// Whether any of `count` values is above its limit.
+  bool (*above)(const float* values, const float* limits, int count);
+
+  /// One substep of symplectic Euler for `count` numbers of one axis: velocity += dt (acceleration
+  /// + force w), position += dt velocity, where w is the inverse mass, but not above its limit.
+  /// Adds the force to `held` where inverse mass is 0, and moves nothing there.
+  void (*integrate)(float* position, float* velocity, const float* acceleration, const float* force,
+                    const float* inverse_mass, const float* limit, float* held, float dt,
+                    int count);
 };
 
 /// The fastest that this processor runs. The environment variable CLOTH_TEARING_SIMD may name a

@@ -12,6 +12,7 @@
 #include "cloth_tearing/core/event_history.h"
 #include "cloth_tearing/core/event_log.h"
 #include "cloth_tearing/core/force_balance.h"
+#include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/grippers.h"
 #include "cloth_tearing/core/loose_pieces.h"
 #include "cloth_tearing/core/material.h"
@@ -356,6 +357,8 @@ private:
   Grippers grippers_;
   SphereSet spheres_;
   Vec3Array acceleration_;  ///< scratch of a step [m/s^2]
+  OuterForces outer_;
+  std::vector<int> suspects_;  ///< springs, scratch of scan()
   Undo undo_;
   Stability stability_;
   EventLog<TearEvent> log_;

@@ -111,30 +111,6 @@ public:
   }
 
 protected:
-  /// Before the notes of a step of so many springs: makes room, so that steady steps do not
-  /// allocate.
-  void clearNotes(std::size_t springs)
-  {
-    stretched_.clear();
-    if (stretched_.capacity() < springs)
-    {
-      stretched_.reserve(2 * springs);
-    }
-  }
-
-  /// Notes a spring if it is long; `squared` is its squared length [m^2].
-  void noteLong(std::size_t spring, Real rest, Real squared)
-  {
-    if (!(squared <= watched_ * (rest * rest)))  // a NaN must not hide
-    {
-      stretched_.push_back(static_cast<int>(spring));
-    }
-  }
-
-  Vec3Array held_;           ///< by particle, of those of inverse mass 0: see heldForce()
-  double held_scale_ = 0.0;  ///< to [N]
-
-  Real watched_ = std::numeric_limits<Real>::max();  ///< squared length over squared rest length
   /// Calls work(0), ... work(count - 1), side by side if it can.
   template <class Work>
   void shared(int count, const Work& work) const
@@ -150,6 +126,9 @@ protected:
     }
   }
 
+  Vec3Array held_;           ///< by particle, of those of inverse mass 0: see heldForce()
+  double held_scale_ = 0.0;  ///< to [N]
+  Real watched_ = std::numeric_limits<Real>::max();  ///< squared length over squared rest length
   std::vector<int> stretched_;
 
 private:

@@ -31,11 +31,18 @@ public:
   /// What spheres and floor did to the momentum of the cloth in the last resolve() [N s].
   const Vec3d& impulse() const { return impulse_; }
 
+  /// Particles that the last resolve() may have moved, maybe more than once.
+  const std::vector<int>& pushed() const { return pushed_; }
+
 private:
+  void findNear(const Cloth& cloth, const Sphere& sphere, const ContactParams& params);
+  Vec3d resolveFloor(Cloth& cloth, const ContactParams& params, double dt);
   void resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params, double dt);
 
   Vec3d impulse_ = Vec3d::Zero();
-  std::vector<TriangleId> near_;  ///< scratch: triangles that the sphere may touch in this step
+  std::vector<TriangleId> near_;      ///< scratch: triangles that the sphere may touch in this step
+  std::vector<unsigned char> sides_;  ///< scratch: of its box on which each particle stays
+  std::vector<int> pushed_;
 };
 
 /// Whether `point` lies inside a sphere or below the floor.

@@ -1,0 +1,103 @@
+// What both solvers share: springs in blocks, gone through group by group.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cloth_tearing/core/solver.h"
+#include "cloth_tearing/core/spring_blocks.h"
+
+namespace cloth
+{
+
+/// Keeps its springs in blocks, brings these up to tears, and shares the groups among threads.
+class BlockSolver : public Solver
+{
+public:
+  void follow(const SpringTable& springs, int particles) override;
+  SolverMemory memory() const override;
+  void recall(const SolverMemory& memory) override;
+
+protected:
+  /// Notes of blocks; its room only grows.
+  struct Notes
+  {
+    std::vector<kernels::Note> notes;
+    int count = 0;
+
+    /// Room for one of each block.
+    kernels::Note* roomFor(std::size_t blocks);
+  };
+
+  /// What going through a group takes beside the particles.
+  struct Scratch
+  {
+    std::array<std::vector<kernels::Record>, 3> records;  ///< of what loose springs touch
+    Notes run_notes;
+    Notes loose_notes;
+    int drawn = 0;  ///< springs that a limiter drew together
+  };
+
+  struct Range
+  {
+    int begin;
+    int end;
+  };
+
+  /// Brings the blocks up to the springs of now. To be called before what follows.
+  void arrange(const SpringTable& springs, int particles);
+
+  const std::vector<SpringGroup>& groups() const { return blocks_.groups(); }
+
+  /// Stretches of particles, which together are all of them: groups of the first phase have one.
+  int stretches() const { return blocks_.phases()[1]; }
+  Range stretch(int group, int particles) const;
+
+  /// Calls work(group, scratch of it), phase by phase; within a phase in any order.
+  template <class Work>
+  void forGroups(const Work& work)
+  {
+    const auto& phases = blocks_.phases();
+    for (int phase = 0; phase < 3; ++phase)
+    {
+      const int first = phases[phase];
+      shared(phases[phase + 1] - first, [&](int i) { work(first + i, scratch_[first + i]); });
+    }
+  }
+
+  /// Calls work(range) for each stretch, in any order.
+  template <class Work>
+  void forStretches(int particles, const Work& work) const
+  {
+    shared(stretches(), [&](int i) { work(stretch(i, particles)); });
+  }
+
+  /// Takes what is written in the scratch of all groups over into stretched().
+  void collectNotes(std::size_t springs);
+
+  /// Sum of Scratch::drawn.
+  int drawn() const;
+
+  /// Copies x, y and z of a group's particles into its records, and back.
+  static void pack(const float* const axes[3], const std::vector<int>& particles,
+                   std::vector<kernels::Record>& records);
+  static void unpack(const std::vector<kernels::Record>& records, const std::vector<int>& particles,
+                     float* const axes[3]);
+
+  /// Their inverse masses, into w.
+  static void packMasses(const float* inverse_mass, const std::vector<int>& particles,
+                         std::vector<kernels::Record>& records);
+
+private:
+  bool arranged() const { return !blocks_.groups().empty(); }
+  void take(const Notes& notes, const std::vector<Links>& links);
+
+  SpringBlocks blocks_;
+  std::uint64_t seen_ = 0;        ///< changes of the springs that blocks_ has followed
+  std::vector<int> recalled_;     ///< what blocks_ are to be made from; empty: from the springs
+  std::vector<int> changed_;      ///< springs, scratch
+  std::vector<Scratch> scratch_;  ///< by group
+};
+
+}  // namespace cloth

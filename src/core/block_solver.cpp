@@ -1,0 +1,139 @@
+// Keeps the blocks of a solver, and gathers what its threads note.
+#include "cloth_tearing/core/block_solver.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cloth
+{
+
+void BlockSolver::arrange(const SpringTable& springs, int particles)
+{
+  if (!arranged())
+  {
+    blocks_ = recalled_.empty() ? SpringBlocks(springs, particles)
+                                : SpringBlocks(springs, particles, recalled_);
+    recalled_.clear();
+    seen_ = springs.changes.count();
+    scratch_.resize(groups().size());
+  }
+  if (seen_ != springs.changes.count())
+  {
+    if (!springs.changes.since(seen_, changed_))
+    {
+      changed_.resize(springs.structural.size());
+      std::iota(changed_.begin(), changed_.end(), 0);
+    }
+    blocks_.follow(springs, particles, changed_);
+    seen_ = springs.changes.count();
+  }
+  if (blocks_.watched() != watched_)
+  {
+    blocks_.watch(springs, watched_);
+  }
+}
+
+void BlockSolver::follow(const SpringTable& springs, int particles)
+{
+  if (arranged())
+  {
+    arrange(springs, particles);
+  }
+}
+
+SolverMemory BlockSolver::memory() const
+{
+  SolverMemory memory;
+  memory.blocks = arranged() ? blocks_.toNumbers() : recalled_;
+  return memory;
+}
+
+void BlockSolver::recall(const SolverMemory& memory)
+{
+  recalled_ = memory.blocks;
+}
+
+/// The last takes those that tears have added as well.
+BlockSolver::Range BlockSolver::stretch(int group, int particles) const
+{
+  const bool last = group + 1 == stretches();
+  return { groups()[group].begin, last ? particles : groups()[group].end };
+}
+
+void BlockSolver::collectNotes(std::size_t springs)
+{
+  stretched_.clear();
+  if (stretched_.capacity() < springs)
+  {
+    stretched_.reserve(2 * springs);  // steady steps do not allocate
+  }
+  for (std::size_t g = 0; g < scratch_.size(); ++g)
+  {
+    take(scratch_[g].run_notes, groups()[g].run_links);
+    take(scratch_[g].loose_notes, groups()[g].loose_links);
+  }
+  std::sort(stretched_.begin(), stretched_.end());
+}
+
+void BlockSolver::take(const Notes& notes, const std::vector<Links>& links)
+{
+  for (int i = 0; i < notes.count; ++i)
+  {
+    const kernels::Note& note = notes.notes[i];
+    for (int lane = 0; lane < kernels::LANES; ++lane)
+    {
+      if ((note.lanes >> lane & 1U) != 0 && links[note.block][lane] >= 0)
+      {
+        stretched_.push_back(links[note.block][lane] / 2);
+      }
+    }
+  }
+}
+
+kernels::Note* BlockSolver::Notes::roomFor(std::size_t blocks)
+{
+  notes.resize(std::max(notes.size(), blocks));
+  return notes.data();
+}
+
+int BlockSolver::drawn() const
+{
+  return std::accumulate(scratch_.begin(), scratch_.end(), 0,
+                         [](int sum, const Scratch& scratch) { return sum + scratch.drawn; });
+}
+
+void BlockSolver::pack(const float* const axes[3], const std::vector<int>& particles,
+                       std::vector<kernels::Record>& records)
+{
+  records.resize(particles.size());
+  for (std::size_t r = 1; r < particles.size(); ++r)  // the first is no particle's
+  {
+    const int p = particles[r];
+    records[r].x = axes[0][p];
+    records[r].y = axes[1][p];
+    records[r].z = axes[2][p];
+  }
+}
+
+void BlockSolver::unpack(const std::vector<kernels::Record>& records,
+                         const std::vector<int>& particles, float* const axes[3])
+{
+  for (std::size_t r = 1; r < particles.size(); ++r)
+  {
+    const int p = particles[r];
+    axes[0][p] = records[r].x;
+    axes[1][p] = records[r].y;
+    axes[2][p] = records[r].z;
+  }
+}
+
+void BlockSolver::packMasses(const float* inverse_mass, const std::vector<int>& particles,
+                             std::vector<kernels::Record>& records)
+{
+  for (std::size_t r = 1; r < particles.size(); ++r)
+  {
+    records[r].w = inverse_mass[particles[r]];
+  }
+}
+
+}  // namespace cloth
