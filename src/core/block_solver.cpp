@@ -11,7 +11,7 @@ void BlockSolver::arrange(const SpringTable& springs, int particles)
 {
   if (!arranged())
   {
-    blocks_ = recalled_.empty() ? SpringBlocks(springs, particles)
+    blocks_ = recalled_.empty() ? SpringBlocks(springs, particles, order_)
                                 : SpringBlocks(springs, particles, recalled_);
     recalled_.clear();
     seen_ = springs.changes.count();

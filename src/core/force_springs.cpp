@@ -16,7 +16,10 @@ constexpr double SAFETY = 0.9;
 
 }  // namespace
 
-ForceSprings::ForceSprings(const SolverParams& params) : params_(params)
+// The limiter hands what it corrects on from spring to spring: down from the first row, where cloth
+// hangs.
+ForceSprings::ForceSprings(const SolverParams& params)
+    : BlockSolver(RunOrder::BY_PLACE), params_(params)
 {
 }
 

@@ -20,6 +20,8 @@ public:
   void recall(const SolverMemory& memory) override;
 
 protected:
+  explicit BlockSolver(RunOrder order) : order_(order) {}
+
   /// Notes of blocks; its room only grows.
   struct Notes
   {
@@ -93,6 +95,7 @@ private:
   bool arranged() const { return !blocks_.groups().empty(); }
   void take(const Notes& notes, const std::vector<Links>& links);
 
+  RunOrder order_;
   SpringBlocks blocks_;
   std::uint64_t seen_ = 0;        ///< changes of the springs that blocks_ has followed
   std::vector<int> recalled_;     ///< what blocks_ are to be made from; empty: from the springs
