@@ -186,9 +186,10 @@ std::vector<Tearing::Option> Tearing::options(const Cloth& cloth, SpringId s) co
   return found;
 }
 
-TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
+/// How the spring would tear, and at what strain.
+TearReading Tearing::unread(const Cloth& cloth, SpringId s) const
 {
-  TearReading reading{ s, TearKind::BASIC, own, strength(cloth, s) * rules_.tear_strain };
+  TearReading reading{ s, TearKind::BASIC, 0.0, strength(cloth, s) * rules_.tear_strain };
   const auto& ends = cloth.mesh.spring(s).particles;
   const auto vulnerable = [&](ParticleId p)
   { return cloth.damage.hinge[p.index] || cloth.damage.weak[p.index]; };
@@ -204,10 +205,14 @@ TearReading Tearing::read(const Cloth& cloth, SpringId s, double own)
       }
     }
   }
-  if (reading.kind == TearKind::BASIC && own > reading.threshold)
-  {
-    reading.strain = patch_.read(cloth, s, rules_.tear_radius);
-  }
+  return reading;
+}
+
+TearReading Tearing::read(const Cloth& cloth, SpringId s, double own) const
+{
+  TearReading reading = unread(cloth, s);
+  const bool on_patch = reading.kind == TearKind::BASIC && own > reading.threshold;
+  reading.strain = on_patch ? patch_.read(cloth, s, rules_.tear_radius) : own;
   return reading;
 }
 
@@ -545,7 +550,7 @@ void Tearing::conclude(Cloth& cloth, const Edit& edit, TearEvent& event)
   }
 }
 
-TearReading Tearing::worst(const Cloth& cloth)
+TearReading Tearing::worst(const Cloth& cloth) const
 {
   std::vector<SpringId> all(cloth.mesh.springCount());
   for (int i = 0; i < cloth.mesh.springCount(); ++i)
@@ -555,18 +560,17 @@ TearReading Tearing::worst(const Cloth& cloth)
   return worst(cloth, all);
 }
 
-TearReading Tearing::worst(const Cloth& cloth, const std::vector<SpringId>& springs)
+TearReading Tearing::worst(const Cloth& cloth, const std::vector<SpringId>& springs) const
 {
   // A reading is at most the spring's own strain over its threshold: look in that order.
   std::vector<TearReading> bounds;
   for (SpringId s : springs)
   {
-    if (cloth.springs.structural[s.index].active())
+    const double own = cloth.springs.structural[s.index].active() ? cloth.strain(s) : 0.0;
+    if (own > 0.0)
     {
-      const double own = cloth.strain(s);
-      TearReading bound = read(cloth, s, std::min(own, 0.0));
-      bound.strain = own;
-      bounds.push_back(bound);
+      bounds.push_back(unread(cloth, s));
+      bounds.back().strain = own;
     }
   }
   const auto lower = [](const TearReading& a, const TearReading& b) { return worseFirst(b, a); };

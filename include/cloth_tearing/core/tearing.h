@@ -25,7 +25,8 @@ struct TearReading
   double utilisation() const { return strain / threshold; }
 };
 
-/// Reads strains and edits the mesh. Knows nothing of solvers: both serve.
+/// Reads strains and edits the mesh. Knows nothing of solvers: both serve. Not for two threads at a
+/// time, even to read.
 class Tearing
 {
 public:
@@ -59,10 +60,10 @@ public:
                               int& postponed);
 
   /// The reading of the spring that is nearest to tearing; spring none if nothing is stretched.
-  TearReading worst(const Cloth& cloth);
+  TearReading worst(const Cloth& cloth) const;
 
   /// The same among `springs`.
-  TearReading worst(const Cloth& cloth, const std::vector<SpringId>& springs);
+  TearReading worst(const Cloth& cloth, const std::vector<SpringId>& springs) const;
 
 private:
   /// A weak or one-point end at which a spring may tear, in order of preference.
@@ -78,7 +79,8 @@ private:
   double strength(const Cloth& cloth, SpringId s) const;
   double crackBand(const Cloth& cloth, SpringId s) const;
   std::vector<Option> options(const Cloth& cloth, SpringId s) const;
-  TearReading read(const Cloth& cloth, SpringId s, double own);
+  TearReading unread(const Cloth& cloth, SpringId s) const;
+  TearReading read(const Cloth& cloth, SpringId s, double own) const;
   void look(const Cloth& cloth, SpringId s, double& most);
 
   bool touched(const Cloth& cloth, SpringId s) const;
@@ -97,7 +99,7 @@ private:
   void conclude(Cloth& cloth, const Edit& edit, TearEvent& event);
 
   TearRules rules_;
-  PatchStrain patch_;
+  mutable PatchStrain patch_;  ///< reading needs scratch
   Pieces pieces_;
   std::vector<TearReading> found_;
   std::vector<unsigned> touched_;  ///< by particle: the number of the pass that touched it last
