@@ -41,7 +41,7 @@ public:
   /// Length / rest length - 1 of every structural spring [-].
   virtual std::vector<double> strains() const = 0;
 
-  /// Speed of the fastest particle [m/s]; infinite or NaN if it ran away.
+  /// Speed of the fastest particle [m/s]; infinite or NaN if it ran away or tore.
   virtual double fastest() const = 0;
 };
 

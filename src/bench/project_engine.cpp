@@ -18,7 +18,11 @@ class ProjectEngine : public Engine
 public:
   explicit ProjectEngine(cloth::Simulation simulation) : simulation_(std::move(simulation)) {}
 
-  void step() override { failed_ = !simulation_.step().fault.empty() || failed_; }
+  void step() override
+  {
+    const cloth::StepReport report = simulation_.step();
+    failed_ = failed_ || !report.fault.empty() || !report.tears.empty();
+  }
 
   int particles() const override { return simulation_.cloth().state.size(); }
 
@@ -49,7 +53,7 @@ public:
 
 private:
   cloth::Simulation simulation_;
-  bool failed_ = false;
+  bool failed_ = false;  ///< it ran away, or is whole no longer
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr double TOP_STRAIN = 0.05;    ///< of a sheet of 1 m where it is pinned
 constexpr double AIR_FRICTION = 1.5;   ///< [1/s]
 constexpr double WIND = 2.0;           ///< [m/s]
 constexpr double BALL_DEPTH = 0.08;    ///< [m]
-constexpr double PINNED_TOP = 0.03;    ///< a garment is pinned so far below its highest point [m]
+constexpr double PINNED_TOP = 0.1;     ///< a garment is pinned so far below its highest point [m]
 
 ClothModel sheet(MeshKind mesh, int side)
 {
@@ -38,18 +38,16 @@ ClothModel sheet(MeshKind mesh, int side)
   return model;
 }
 
-/// A garment as a metre of cloth, its longest side upright, its top at z = 0.
+/// A garment whose longest side is a metre, y of the file upwards, its top at z = 0.
 ClothModel garmentFrom(const std::string& file)
 {
   const cloth::ObjImport drawn = cloth::readObjFile(file);
-  int up = 0;
   cloth::ImportOptions options;  // a file has units of its own
-  options.scale = 1.0 / (drawn.report.highest - drawn.report.lowest).maxCoeff(&up);
+  options.scale = 1.0 / (drawn.report.highest - drawn.report.lowest).maxCoeff();
   cloth::ObjImport import = cloth::readObjFile(file, options);
   for (Vec3d& x : import.model.positions)
   {
-    const Vec3d below = x - import.report.highest;
-    x = Vec3d(below[(up + 1) % 3], below[(up + 2) % 3], below[up]);
+    x = Vec3d(x.x(), -x.z(), x.y() - import.report.highest.y());
   }
   return import.model;
 }

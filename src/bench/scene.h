@@ -22,7 +22,7 @@ enum class MeshKind
 {
   GRID,       ///< one diagonal in each cell
   IRREGULAR,  ///< as many particles, Delaunay
-  GARMENT,    ///< a file of the user's, 1 m high
+  GARMENT,    ///< a file of the user's, 1 m at its longest, hung by its top 0.1 m
 };
 
 /// A ball that does not move.

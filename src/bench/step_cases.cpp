@@ -99,7 +99,7 @@ void timeSteps(benchmark::State& state, const StepCase& c, const std::string& ga
   }
   if (!std::isfinite(engine.fastest()))
   {
-    state.SkipWithError("the cloth ran away");
+    state.SkipWithError("the cloth ran away or tore");
     return;
   }
   const double particles = engine.particles();
