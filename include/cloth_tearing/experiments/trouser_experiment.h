@@ -31,7 +31,7 @@ struct TrouserOutcome
 
   /// Whether the tear ran on along the cut: 3 m in its direction, end to end within 25 degrees of
   /// it, and within 1.2 m rms of its line. A tear that a grid leads astray follows the diagonals,
-  /// at 37 degrees and 1.3 m; pulled at the legs' middles the largest are 15 degrees and 0.9 m.
+  /// at 37 degrees and 1.3 m; pulled at the legs' middles the largest are 22 degrees and 1.0 m.
   bool runsOn() const;
 };
 
