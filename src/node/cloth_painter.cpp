@@ -136,24 +136,35 @@ void ClothPainter::cutByTexture(const std::vector<cloth::SurfaceTriangle>& trian
       painted_uv_[t] = triangle.uv;
       corners = cutByChecks(triangle.uv, style_.checks);
     }
+    const std::size_t first = crossings_.size();
     for (std::size_t c = 0; c + 3 <= corners.size(); c += 3)
     {
-      parts_.push_back({ { vertexAt(triangle, corners[c]), vertexAt(triangle, corners[c + 1]),
-                           vertexAt(triangle, corners[c + 2]) },
-                         corners[c].color });
+      parts_.push_back(
+          { { vertexAt(triangle, corners[c], first), vertexAt(triangle, corners[c + 1], first),
+              vertexAt(triangle, corners[c + 2], first) },
+            corners[c].color });
     }
   }
 }
 
-int ClothPainter::vertexAt(const cloth::SurfaceTriangle& triangle, const PaintedCorner& corner)
+/// @param first crossing of this triangle: parts of it share their vertices
+int ClothPainter::vertexAt(const cloth::SurfaceTriangle& triangle, const PaintedCorner& corner,
+                           std::size_t first)
 {
   const auto whole = std::find(corner.weights.begin(), corner.weights.end(), 1.0F);
   if (whole != corner.weights.end())
   {
     return triangle.particles[whole - corner.weights.begin()];
   }
-  crossings_.push_back({ triangle.particles, corner.weights });
-  return static_cast<int>(particles_ + crossings_.size() - 1);
+  const auto known = std::find_if(
+      crossings_.begin() + static_cast<std::ptrdiff_t>(first), crossings_.end(),
+      [&corner](const Crossing& crossing) { return crossing.weights == corner.weights; });
+  const std::ptrdiff_t index = known - crossings_.begin();
+  if (known == crossings_.end())
+  {
+    crossings_.push_back({ triangle.particles, corner.weights });
+  }
+  return static_cast<int>(particles_) + static_cast<int>(index);
 }
 
 // -- in every frame ------------------------------------------------------------------------------

@@ -55,7 +55,8 @@ private:
 
   void cut(const cloth::Surface& surface);
   void cutByTexture(const std::vector<cloth::SurfaceTriangle>& triangles);
-  int vertexAt(const cloth::SurfaceTriangle& triangle, const PaintedCorner& corner);
+  int vertexAt(const cloth::SurfaceTriangle& triangle, const PaintedCorner& corner,
+               std::size_t first);
   void placeVertices(const cloth::Surface& surface);
   Color strainColor(cloth::Real strain) const;
 
