@@ -1,4 +1,4 @@
-// Scenes whose bits must not depend on compiler, optimisation or run.
+// Scenes whose bits must not depend on compiler, optimisation, registers, threads or run.
 #pragma once
 
 #include <cstdint>
@@ -41,12 +41,9 @@ inline SimulationParams parameters(SolverKind solver)
   return params;
 }
 
-inline Simulation curtain(SolverKind solver)
+/// Hangs by its upper edge.
+inline Simulation hung(const RectangleParams& rectangle_params, const SimulationParams& params)
 {
-  RectangleParams rectangle_params;
-  rectangle_params.columns = 10;
-  rectangle_params.rows = 10;
-  rectangle_params.pattern = RectanglePattern::IRREGULAR;
   ClothModel model = rectangle(rectangle_params);
   std::vector<int> top;
   for (std::size_t i = 0; i < model.positions.size(); ++i)
@@ -58,7 +55,31 @@ inline Simulation curtain(SolverKind solver)
     }
     x = Vec3d(x.x(), 0.0, x.y());
   }
-  return { model, top, parameters(solver) };
+  return { model, top, params };
+}
+
+inline Simulation curtain(SolverKind solver)
+{
+  RectangleParams rectangle_params;
+  rectangle_params.columns = 10;
+  rectangle_params.rows = 10;
+  rectangle_params.pattern = RectanglePattern::IRREGULAR;
+  return hung(rectangle_params, parameters(solver));
+}
+
+/// So large that many threads share a step.
+inline Simulation largeCurtain(SolverKind solver, RectanglePattern pattern, int threads)
+{
+  RectangleParams rectangle_params;
+  rectangle_params.width = 4.0;
+  rectangle_params.height = 4.0;
+  rectangle_params.columns = 120;
+  rectangle_params.rows = 120;
+  rectangle_params.pattern = pattern;
+  SimulationParams params = parameters(solver);
+  params.contact.floor_height = -3.8;
+  params.threads = threads;
+  return hung(rectangle_params, params);
 }
 
 /// A sphere pushes in, streamed.
@@ -79,7 +100,7 @@ inline void drag(Simulation& simulation)
   request.radius = 0.2;
   request.frame.position = request.point;
   DragTarget target;
-  target.pose.position = Vec3d(0.5, -0.3, -1.7);
+  target.pose.position = Vec3d(0.3, -0.3, -1.3);
   target.pose.rotation = Quatd(0.8, 0.0, 0.6, 0.0);
   target.linear_speed = 2.0;
   target.angular_speed = 3.0;
@@ -99,9 +120,57 @@ inline void shoot(Simulation& simulation)
   simulation.throwSphere(thrown);
 }
 
+/// All at once, on a large cloth: balls, one of them heavy, and a gripper that pulls and turns.
+inline void storm(Simulation& simulation)
+{
+  ThrowRequest thrown;
+  thrown.center = Vec3d(0.03, -0.5, -1.5);
+  thrown.velocity = Vec3d(0.2, 20.0, 0.1);
+  thrown.radius = 0.3;
+  simulation.throwSphere(thrown);
+  thrown.center = Vec3d(-1.0, -0.5, -2.5);
+  thrown.mass = 2.0;
+  simulation.throwSphere(thrown);
+
+  GraspRequest request;
+  request.point = Vec3d(1.5, 0.0, -2.0);
+  request.radius = 0.3;
+  request.frame.position = request.point;
+  DragTarget target;
+  target.pose.position = Vec3d(2.5, -1.0, -4.0);
+  target.pose.rotation = Quatd(0.8, 0.0, 0.6, 0.0);
+  target.linear_speed = 6.0;
+  target.angular_speed = 3.0;
+  simulation.drag(simulation.grasp(request).id, target);
+}
+
+/// Adds what it was like five times on the way; a fault ends it.
+inline void play(const std::string& name, Simulation simulation, int steps,
+                 std::vector<SceneMoment>& moments)
+{
+  std::string fault;
+  for (int i = 1; i <= steps && fault.empty(); ++i)
+  {
+    fault = simulation.step().fault;
+    if (i % (steps / 5) == 0 || !fault.empty())
+    {
+      moments.push_back({ name + " step " + std::to_string(i) + fault, simulation.revision(),
+                          simulation.stateHash() });
+    }
+  }
+}
+
+inline std::string nameOf(SolverKind solver)
+{
+  return solver == SolverKind::XPBD ? "xpbd" : "force_springs";
+}
+
 }  // namespace determinism
 
-/// Plays all scenes with both solvers, each from the start.
+/// So many threads share a step of the large scenes, if they may.
+constexpr int MOST_SCENE_THREADS = 7;
+
+/// Plays all small scenes with both solvers, each from the start.
 inline std::vector<SceneMoment> playScenes()
 {
   struct Scene
@@ -112,22 +181,31 @@ inline std::vector<SceneMoment> playScenes()
   std::vector<SceneMoment> moments;
   for (SolverKind solver : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })
   {
-    const std::string with = solver == SolverKind::XPBD ? "xpbd" : "force_springs";
     for (const Scene& scene :
          { Scene{ "drape", determinism::drape }, Scene{ "drag", determinism::drag },
            Scene{ "shoot", determinism::shoot } })
     {
       Simulation simulation = determinism::curtain(solver);
       scene.begin(simulation);
-      for (int i = 1; i <= 500; ++i)
-      {
-        const StepReport report = simulation.step();
-        if (i % 100 == 0 || !report.fault.empty())
-        {
-          moments.push_back({ with + " " + scene.name + " step " + std::to_string(i) + report.fault,
-                              simulation.revision(), simulation.stateHash() });
-        }
-      }
+      determinism::play(determinism::nameOf(solver) + " " + scene.name, simulation, 500, moments);
+    }
+  }
+  return moments;
+}
+
+/// Plays a large scene with both solvers, on cloth of rows and on irregular cloth.
+inline std::vector<SceneMoment> playLargeScenes(int threads)
+{
+  std::vector<SceneMoment> moments;
+  for (SolverKind solver : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })
+  {
+    for (RectanglePattern pattern : { RectanglePattern::ALTERNATING, RectanglePattern::IRREGULAR })
+    {
+      const std::string mesh = pattern == RectanglePattern::IRREGULAR ? "irregular" : "rows";
+      Simulation simulation = determinism::largeCurtain(solver, pattern, threads);
+      determinism::storm(simulation);
+      determinism::play("large " + determinism::nameOf(solver) + " " + mesh, simulation, 120,
+                        moments);
     }
   }
   return moments;

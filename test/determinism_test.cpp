@@ -1,10 +1,10 @@
-// Claims of determinism: the same bits in every run and at every level of optimisation.
+// Claims of determinism: the same bits in every run, on any number of threads, with registers of
+// any width, by any compiler and at every level of optimisation.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
-#include <cstring>
-
+#include "child_process.h"
+#include "cloth_tearing/core/kernels.h"
+#include "cloth_tearing/core/worker_pool.h"
 #include "determinism_scenes.h"
 
 namespace cloth
@@ -12,57 +12,134 @@ namespace cloth
 namespace
 {
 
-/// What a program prints, line by line.
-std::vector<std::string> linesOf(const std::string& program)
+using Lines = std::vector<std::string>;
+
+Lines linesOf(const std::vector<SceneMoment>& moments)
 {
-  std::vector<std::string> lines;
-  FILE* pipe = popen(("'" + program + "'").c_str(), "r");
-  if (pipe == nullptr)
+  Lines lines;
+  for (const SceneMoment& moment : moments)
   {
+    lines.push_back(moment.line());
+  }
+  return lines;
+}
+
+/// Played once, as all here on one thread.
+const Lines& smallScenes()
+{
+  static const Lines lines = linesOf(playScenes());
+  return lines;
+}
+
+const Lines& largeScenes()
+{
+  static const Lines lines = linesOf(playLargeScenes(1));
+  return lines;
+}
+
+Lines allScenes()
+{
+  Lines lines = smallScenes();
+  lines.insert(lines.end(), largeScenes().begin(), largeScenes().end());
+  return lines;
+}
+
+/// What a program says that plays the scenes, but for its first line, which names its loops.
+Lines scenesOf(const Lines& command, const std::string& loops)
+{
+  ChildProcess program(command, 200);
+  Lines lines = program.lines();
+  EXPECT_EQ(program.exitStatus(), 0) << command.back();
+  if (lines.empty())
+  {
+    ADD_FAILURE() << command.back() << " says nothing";
     return lines;
   }
-  std::array<char, 512> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr)
-  {
-    lines.emplace_back(buffer.data(), std::strcspn(buffer.data(), "\n"));
-  }
-  EXPECT_EQ(pclose(pipe), 0) << program;
+  EXPECT_EQ(lines.front(), "loops: " + loops);
+  lines.erase(lines.begin());
   return lines;
+}
+
+bool runsHere(const std::string& loops)
+{
+  const kernels::Set* const* sets = nullptr;
+  const std::size_t count = kernels::available(sets);
+  return std::any_of(sets, sets + count,
+                     [&](const kernels::Set* set) { return set->name == loops; });
 }
 
 TEST(Determinism, GivesTheSameBitsInEveryRun)
 {
-  const std::vector<SceneMoment> first = playScenes();
-  const std::vector<SceneMoment> second = playScenes();
-  ASSERT_EQ(first.size(), 30u);
-  for (std::size_t i = 0; i < first.size(); ++i)
-  {
-    EXPECT_EQ(first[i].line(), second[i].line());
-  }
+  EXPECT_EQ(smallScenes().size(), 30u);
+  EXPECT_EQ(linesOf(playScenes()), smallScenes());
 }
 
 TEST(Determinism, IsTestedOnScenesThatTear)
 {
-  for (const SceneMoment& moment : playScenes())
+  std::vector<SceneMoment> moments = playScenes();
+  for (const SceneMoment& moment : playLargeScenes(0))
+  {
+    moments.push_back(moment);
+  }
+  for (const SceneMoment& moment : moments)
   {
     const bool tears = moment.name.find("drape") == std::string::npos;
-    if (tears && moment.name.find("step 500") != std::string::npos)
+    const bool large = moment.name.find("large") != std::string::npos;
+    if (tears && moment.name.find(large ? "step 120" : "step 500") != std::string::npos)
     {
-      EXPECT_GT(moment.tears, 5u) << moment.name;
+      EXPECT_GT(moment.tears, large ? 100u : 3u) << moment.name;
     }
+  }
+}
+
+TEST(Determinism, IsTestedOnClothThatAllThreadsShare)
+{
+  const Simulation cloth =
+      determinism::largeCurtain(SolverKind::XPBD, RectanglePattern::ALTERNATING, 1);
+  EXPECT_EQ(threadsFor(MOST_SCENE_THREADS, cloth.cloth().state.size()), MOST_SCENE_THREADS);
+}
+
+TEST(Determinism, GivesTheSameBitsOnAnyNumberOfThreads)
+{
+  for (int threads : { 2, 3, MOST_SCENE_THREADS })
+  {
+    EXPECT_EQ(linesOf(playLargeScenes(threads)), largeScenes()) << threads << " threads";
   }
 }
 
 TEST(Determinism, GivesTheSameBitsWithoutOptimisation)
 {
-  const std::vector<std::string> unoptimised = linesOf(CLOTH_TEARING_UNOPTIMISED_SCENES);
-  const std::vector<SceneMoment> here = playScenes();
-  ASSERT_EQ(unoptimised.size(), here.size());
-  for (std::size_t i = 0; i < here.size(); ++i)
-  {
-    EXPECT_EQ(unoptimised[i], here[i].line());
-  }
+  EXPECT_EQ(scenesOf({ CLOTH_TEARING_UNOPTIMISED_SCENES, "--small" }, kernels::best().name),
+            smallScenes());
 }
+
+TEST(Determinism, GivesTheSameBitsByClang)
+{
+  if (std::string(CLOTH_TEARING_CLANG_SCENES).empty())
+  {
+    GTEST_SKIP() << "clang++ was not found: its bits are not compared with those of "
+                 << CLOTH_TEARING_COMPILER;
+  }
+  EXPECT_EQ(scenesOf({ CLOTH_TEARING_CLANG_SCENES }, kernels::best().name), allScenes());
+}
+
+class DeterminismOfLoops : public testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(DeterminismOfLoops, GiveTheSameBitsAsTheWidest)
+{
+  const std::string loops = GetParam();
+  if (!runsHere(loops))
+  {
+    GTEST_SKIP() << "this processor has no " << loops << ": its bits are not compared";
+  }
+  EXPECT_EQ(scenesOf({ "env", "CLOTH_TEARING_SIMD=" + loops, CLOTH_TEARING_SCENES }, loops),
+            allScenes());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DeterminismOfLoops, testing::Values("plain", "avx2", "avx512"),
+                         [](const auto& loops) { return std::string(loops.param); });
 
 }  // namespace
 }  // namespace cloth
