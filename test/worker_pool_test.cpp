@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -40,6 +42,24 @@ TEST(WorkerPool, IsDoneWhenItReturnsTimeAfterTime)
   {
     pool.run(static_cast<int>(values.size()), [&](int i) { values[i] += i; });
     ASSERT_EQ(std::accumulate(values.begin(), values.end(), 0), round * 49 * 50 / 2);
+  }
+}
+
+/// A thread that still looks for work of the last round must not take any of the next on its way.
+TEST(WorkerPool, DoesEachPieceOnceThoughRoundsOfOtherSizesFollowAtOnce)
+{
+  for (int threads : { 2, 3, 7 })
+  {
+    WorkerPool pool(threads);
+    std::vector<int> done(64);
+    for (int round = 0; round < 1000000; ++round)
+    {
+      const int count = std::array<int, 5>{ 8, 6, 3, 64, 8 }[round % 5];
+      std::fill(done.begin(), done.begin() + count, 0);
+      pool.run(count, [&](int i) { ++done[i]; });
+      ASSERT_EQ(std::count(done.begin(), done.begin() + count, 1), count)
+          << "round " << round << ", " << threads << " threads";
+    }
   }
 }
 
