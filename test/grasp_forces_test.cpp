@@ -237,6 +237,38 @@ TEST_P(GraspForces, AddUpInAStepThatTears)
   EXPECT_GT(strongest, 10.0 * weight);
 }
 
+TEST_P(GraspForces, AreNearlyTheSameIfFirstAskedForAfterATear)
+{
+  SimulationParams params = tearable(GetParam());
+  params.solver.max_substeps = 64;
+  Simulation simulation(upright(sheet(0.3, 0.3, 7, 7)), { 0, 1, 2, 3, 4, 5, 6 }, params);
+  const std::uint64_t grasp = take(simulation, Vec3d(0.0, 0.0, -0.3), 0.06);
+  DragTarget target;
+  target.pose.position = Vec3d(0.0, 0.0, -0.7);
+  target.linear_speed = 0.5;
+  simulation.drag(grasp, target);
+  int torn = 0;
+  double strongest = 0.0;
+  for (int i = 0; i < 800; ++i)
+  {
+    Simulation asked = simulation;
+    asked.forceBalance();
+    run(asked, 1);
+    torn += run(simulation, 1).empty() ? 0 : 1;
+    const Simulation unasked = simulation;  // so that `simulation` stays so
+    const ForceBalance expected = asked.forceBalance();
+    const ForceBalance balance = unasked.forceBalance();
+    strongest = std::max(strongest, expected.grasp.norm());
+    EXPECT_LT((balance.weight - expected.weight).norm(), 1e-9);
+    for (const auto part :
+         { &ForceBalance::grasp, &ForceBalance::pin, &ForceBalance::momentum_rate })
+    {
+      EXPECT_LT((balance.*part - expected.*part).norm(), 0.02 * strongest) << i;
+    }
+  }
+  EXPECT_GE(torn, 3);
+}
+
 TEST(ForceBalanceOfForceSprings, CountsWhatSliversGainThatAreTreatedAsHeavier)
 {
   SimulationParams params = tearable(SolverKind::FORCE_SPRINGS);

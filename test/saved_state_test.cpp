@@ -626,6 +626,7 @@ const std::set<std::string> LEFT_OUT = {
   "suspects of simulation",
   "undo of simulation",
   "balance of simulation",
+  "wanted_until of simulation",
   "log of simulation",
   "grasp_log of simulation",
   "pull_log of simulation",

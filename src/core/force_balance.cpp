@@ -4,12 +4,22 @@
 namespace cloth
 {
 
+int StepForces::origin(int particle) const
+{
+  while (particle >= static_cast<int>(velocity_before.size()))
+  {
+    particle = cloth.damage.parents[particle][0];
+  }
+  return particle;
+}
+
 Vec3d StepForces::byHolder(int particle) const
 {
-  const Vec3 gained = cloth.state.velocity[particle] - velocity_before[particle];
+  const int before = origin(particle);
+  const Vec3 gained = cloth.state.velocity[particle] - velocity_before[before];
   const Vec3d rate = gained.cast<double>() / dt;
-  return cloth.rest.mass[particle] * (rate - acceleration[particle].cast<double>()) -
-         solver.heldForce(particle);
+  const Vec3d free = cloth.rest.mass[particle] * (rate - acceleration[before].cast<double>());
+  return before == particle ? Vec3d(free - solver.heldForce(particle)) : free;
 }
 
 ForceBalance StepForces::balance() const
@@ -24,10 +34,11 @@ ForceBalance StepForces::balance() const
       continue;
     }
     const double mass = cloth.rest.mass[i];
-    const Vec3 gained = cloth.state.velocity[i] - velocity_before[i];
+    const int before = origin(i);
+    const Vec3 gained = cloth.state.velocity[i] - velocity_before[before];
     sum.momentum_rate += mass / dt * gained.cast<double>();
     sum.weight += mass * gravity;
-    sum.air += mass * (acceleration[i].cast<double>() - gravity);
+    sum.air += mass * (acceleration[before].cast<double>() - gravity);
     if (cloth.attachments[i].held())
     {
       (cloth.attachments[i].pinned() ? sum.pin : sum.grasp) += byHolder(i);

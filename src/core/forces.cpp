@@ -33,26 +33,36 @@ void blowOnLoose(const Cloth& cloth, const std::vector<int>& triangles, const ke
 }  // namespace
 
 void OuterForces::accelerate(const Cloth& cloth, const Mesh& untorn, const Environment& environment,
-                             Vec3Array& acceleration)
+                             Vec3Array& acceleration, WorkerPool* workers)
 {
   const ParticleState& state = cloth.state;
   const Vec3 gravity = environment.gravity.cast<Real>();
   const auto friction = static_cast<Real>(environment.air_friction);
+  const bool windy = environment.wind_drag > 0.0;
   acceleration.resize(state.size());
-  for (int k = 0; k < 3; ++k)
-  {
-    kernels::best().accelerate(acceleration.axis(k), state.velocity.axis(k), gravity[k], friction,
-                               state.size());
-  }
-  if (environment.wind_drag > 0.0)
+  if (windy)
   {
     if (!triangles_.made())
     {
       triangles_ = TriangleRuns(untorn);
     }
     follow(cloth);
-    addWind(cloth, environment, acceleration);
+    blow(cloth, environment);
   }
+  shareStretches(workers, state.size(),
+                 [&](int begin, int end)
+                 {
+                   for (int k = 0; k < 3; ++k)
+                   {
+                     kernels::best().accelerate(acceleration.axis(k) + begin,
+                                                state.velocity.axis(k) + begin, gravity[k],
+                                                friction, end - begin);
+                   }
+                   if (windy)
+                   {
+                     addWind(cloth, acceleration, begin, end);
+                   }
+                 });
 }
 
 void OuterForces::follow(const Cloth& cloth)
@@ -63,8 +73,8 @@ void OuterForces::follow(const Cloth& cloth)
   }
 }
 
-void OuterForces::addWind(const Cloth& cloth, const Environment& environment,
-                          Vec3Array& acceleration)
+/// What the wind does to each particle.
+void OuterForces::blow(const Cloth& cloth, const Environment& environment)
 {
   const ParticleState& state = cloth.state;
   force_.resize(state.size());
@@ -81,14 +91,19 @@ void OuterForces::addWind(const Cloth& cloth, const Environment& environment,
   kernels::best().blow_runs(air, triangles_.runs().data(), triangles_.areas().data(),
                             static_cast<int>(triangles_.runs().size()));
   blowOnLoose(cloth, triangles_.loose(), air);
+}
+
+void OuterForces::addWind(const Cloth& cloth, Vec3Array& acceleration, int begin, int end) const
+{
+  const std::vector<Real>& inverse_mass = cloth.state.inverse_mass;
   for (int k = 0; k < 3; ++k)
   {
-    kernels::best().add_force(acceleration.axis(k), force_.axis(k), state.inverse_mass.data(),
-                              state.size());
+    kernels::best().add_force(acceleration.axis(k) + begin, force_.axis(k) + begin,
+                              inverse_mass.data() + begin, end - begin);
   }
-  for (int i = 0; i < state.size(); ++i)
+  for (int i = begin; i < end; ++i)
   {
-    if (!(state.inverse_mass[i] > 0))
+    if (!(inverse_mass[i] > 0))
     {
       acceleration[i] += static_cast<Real>(1.0 / cloth.rest.mass[i]) * force_[i];
     }

@@ -4,18 +4,20 @@
 
 using Vector = float __attribute__((vector_size(REGISTER)));
 using Mask = int __attribute__((vector_size(REGISTER)));
-using Unaligned = float __attribute__((vector_size(REGISTER), aligned(4), may_alias));
-using UnalignedMask = int __attribute__((vector_size(REGISTER), aligned(4), may_alias));
 constexpr int WIDTH = REGISTER / static_cast<int>(sizeof(float));
+
+// What lies in memory is aligned as its numbers are, no more; copies say so to each compiler.
 
 inline Vector load(const float* from)
 {
-  return *reinterpret_cast<const Unaligned*>(from);
+  Vector values;
+  __builtin_memcpy(&values, from, sizeof(values));
+  return values;
 }
 
 inline void store(float* to, Vector values)
 {
-  *reinterpret_cast<Unaligned*>(to) = values;
+  __builtin_memcpy(to, &values, sizeof(values));
 }
 
 #if defined(__AVX512F__)
@@ -142,7 +144,7 @@ inline Pull pullOf(const End& way_a, const End& way_b, const End& start_a, const
 __attribute__((noinline, cold)) unsigned bitsOf(const Mask& mask)
 {
   int lanes[WIDTH];
-  *reinterpret_cast<UnalignedMask*>(lanes) = mask;
+  __builtin_memcpy(lanes, &mask, sizeof(mask));
   unsigned bits = 0;
   for (int i = 0; i < WIDTH; ++i)
   {
@@ -537,6 +539,14 @@ inline Excess excessOf(const End& a, const End& b, Vector wa, Vector wb, const L
   return excess;
 }
 
+/// Lanes that are not too long keep their very bits: adding nothing makes a zero of -0, and which
+/// lanes are looked at together depends on the width.
+inline End drawnEnd(const End& at, Vector by, const Excess& excess)
+{
+  const End to = moved(at, by, excess.d);
+  return { excess.over ? to.x : at.x, excess.over ? to.y : at.y, excess.over ? to.z : at.z };
+}
+
 int drawRuns(const Places& places, const RunEnds* ends, const Lanes* lanes, float most, int count)
 {
   int drawn = 0;
@@ -552,8 +562,8 @@ int drawRuns(const Places& places, const RunEnds* ends, const Lanes* lanes, floa
                    load(places.inverse_mass + b), lanes[i], lane, most);
       if (__builtin_expect(any(excess.over), 0))
       {
-        storeEnd(places.position, a, moved(at_a, excess.by_a, excess.d));
-        storeEnd(places.position, b, moved(loadEnd(places.position, b), excess.by_b, excess.d));
+        storeEnd(places.position, a, drawnEnd(at_a, excess.by_a, excess));
+        storeEnd(places.position, b, drawnEnd(loadEnd(places.position, b), excess.by_b, excess));
         drawn += __builtin_popcount(bitsOf(excess.over));
       }
     }
@@ -576,8 +586,8 @@ int drawRecords(Record* place, const RecordEnds* ends, const Lanes* lanes, float
           excessOf(endOf(at_a), endOf(at_b), at_a.w, at_b.w, lanes[i], lane, most);
       if (__builtin_expect(any(excess.over), 0))
       {
-        storeRecords(place, a, moved(endOf(at_a), excess.by_a, excess.d), at_a.w);
-        storeRecords(place, b, moved(endOf(at_b), excess.by_b, excess.d), at_b.w);
+        storeRecords(place, a, drawnEnd(endOf(at_a), excess.by_a, excess), at_a.w);
+        storeRecords(place, b, drawnEnd(endOf(at_b), excess.by_b, excess), at_b.w);
         drawn += __builtin_popcount(bitsOf(excess.over));
       }
     }
@@ -627,22 +637,30 @@ inline Push pushOf(const Corners& corners, const Air& air, Vector rest_area)
 
 void blowRuns(const Air& air, const TriangleRun* runs, const Areas* areas, int count)
 {
+  constexpr int REGISTERS = LANES / WIDTH;
   for (int i = 0; i < count; ++i)
   {
-    for (int lane = 0; lane < LANES; lane += WIDTH)
+    Push pushes[REGISTERS];
+    for (int r = 0; r < REGISTERS; ++r)
     {
-      const int a = runs[i].a + lane;
-      const int b = runs[i].b + lane;
-      const int c = runs[i].c + lane;
-      const Push push = pushOf({ loadEnd(air.position, a), loadEnd(air.position, b),
-                                 loadEnd(air.position, c), loadEnd(air.velocity, a),
-                                 loadEnd(air.velocity, b), loadEnd(air.velocity, c) },
-                               air, load(areas[i].area + lane));
-      // One after the other: the three stretches may overlap.
-      const int corners[3] = { a, b, c };
-      for (int corner : corners)
+      const int a = runs[i].a + r * WIDTH;
+      const int b = runs[i].b + r * WIDTH;
+      const int c = runs[i].c + r * WIDTH;
+      pushes[r] = pushOf({ loadEnd(air.position, a), loadEnd(air.position, b),
+                           loadEnd(air.position, c), loadEnd(air.velocity, a),
+                           loadEnd(air.velocity, b), loadEnd(air.velocity, c) },
+                         air, load(areas[i].area + r * WIDTH));
+    }
+    // One after the other, and all lanes of each: the three stretches may overlap, and what is added
+    // first must not depend on the width.
+    const int corners[3] = { runs[i].a, runs[i].b, runs[i].c };
+    for (int first : corners)
+    {
+      for (int r = 0; r < REGISTERS; ++r)
       {
-        storeEnd(air.force, corner, moved(loadEnd(air.force, corner), push.factor, push.normal));
+        const int corner = first + r * WIDTH;
+        storeEnd(air.force, corner,
+                 moved(loadEnd(air.force, corner), pushes[r].factor, pushes[r].normal));
       }
     }
   }
@@ -699,7 +717,7 @@ void predict(float* __restrict way, const float* __restrict velocity,
   {
     const float free = dt * (velocity[i] + dt * acceleration[i]);
     const float led = position[i] - start[i];
-    way[i] = inverse_mass[i] > 0 ? free : led;
+    way[i] = (inverse_mass[i] > 0 ? free : led) + 0.0f;  // no -0: lanes without a spring add 0
   }
 }
 

@@ -2,6 +2,7 @@
 #include "cloth_tearing/core/simulation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,7 @@
 #include "cloth_tearing/core/flush_subnormals.h"
 #include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/kernels.h"
+#include "cloth_tearing/core/snapshot_taker.h"
 #include "cloth_tearing/core/state_hash.h"
 
 namespace cloth
@@ -18,6 +20,10 @@ namespace
 
 /// How often a loose piece is looked for beyond the bounds [steps].
 constexpr std::uint64_t BOUNDS_INTERVAL = 100;
+
+/// Who has asked for the balance of forces may ask again for so long [steps]: till then it is
+/// summed up before each tear, which changes what it is summed up from.
+constexpr std::uint64_t BALANCE_INTEREST = 1000;
 
 /// Ends of pulls that are kept for those who ask later.
 constexpr int ENDED_PULLS = 1000;
@@ -65,28 +71,39 @@ private:
   StepObserver* observer_;
 };
 
+/// Sorts `ids` and leaves each once.
+template <class Id>
+void sortOnce(std::vector<Id>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
 /// Springs of the triangles round held particles and their neighbours, each once.
 std::vector<SpringId> springsNear(const Mesh& mesh, const Grasp& grasp)
 {
-  std::vector<SpringId> springs;
-  const auto add = [&](TriangleId t)
-  {
-    const auto& sides = mesh.triangle(t).springs;
-    springs.insert(springs.end(), sides.begin(), sides.end());
-  };
-  const auto addNeighbours = [&](TriangleId t)
-  {
-    for (ParticleId p : mesh.triangle(t).particles)
-    {
-      mesh.forEachTriangleAt(p, add);
-    }
-  };
+  std::vector<ParticleId> particles;
   for (const Grasp::Held& held : grasp.held)
   {
-    mesh.forEachTriangleAt(held.particle, addNeighbours);
+    mesh.forEachTriangleAt(held.particle,
+                           [&](TriangleId t)
+                           {
+                             const auto& corners = mesh.triangle(t).particles;
+                             particles.insert(particles.end(), corners.begin(), corners.end());
+                           });
   }
-  std::sort(springs.begin(), springs.end());
-  springs.erase(std::unique(springs.begin(), springs.end()), springs.end());
+  sortOnce(particles);
+  std::vector<SpringId> springs;
+  for (ParticleId p : particles)
+  {
+    mesh.forEachTriangleAt(p,
+                           [&](TriangleId t)
+                           {
+                             const auto& sides = mesh.triangle(t).springs;
+                             springs.insert(springs.end(), sides.begin(), sides.end());
+                           });
+  }
+  sortOnce(springs);
   return springs;
 }
 
@@ -151,7 +168,8 @@ StepReport Simulation::step(StepObserver* observer)
   // Held particles follow their grippers.
   grippers_.carry(cloth_.state, dt, { params_.max_gripper_speed, params_.max_gripper_turn });
   enter(StepPhase::ADVANCE);
-  outer_.accelerate(cloth_, untorn_.mesh, params_.environment, acceleration_);  // (2.1.1)
+  outer_.accelerate(cloth_, untorn_.mesh, params_.environment, acceleration_,
+                    workers_.get());  // gravity, air, wind (2.1.1)
   solver_->advance(cloth_.state, cloth_.springs, acceleration_, dt);
   enter(StepPhase::LIMIT);
   solver_->limitStrain(cloth_.state, cloth_.springs);  // woven cloth hardly stretches (2.1.1)
@@ -174,7 +192,10 @@ StepReport Simulation::step(StepObserver* observer)
   ++step_;
   if (tearing_.found())
   {
-    keepBalance();  // edits change what it is summed up from
+    if (step_ < balance_wanted_until_)
+    {
+      keepBalance();  // edits change what it is summed up from
+    }
     undo_.grasps = grippers_.all();
   }
   report.tears = tearing_.tear(
@@ -217,8 +238,7 @@ double Simulation::scan()
                                     }
                                   });
   }
-  std::sort(suspects_.begin(), suspects_.end());
-  suspects_.erase(std::unique(suspects_.begin(), suspects_.end()), suspects_.end());
+  sortOnce(suspects_);
   return tearing_.scan(cloth_, suspects_);
 }
 
@@ -235,8 +255,15 @@ void Simulation::watchSprings()
 
 void Simulation::remember()
 {
-  cloth_.state.previous = cloth_.state.position;
-  undo_.velocity = cloth_.state.velocity;
+  ParticleState& state = cloth_.state;
+  state.previous.resize(state.size());
+  undo_.velocity.resize(state.size());
+  shareStretches(workers_.get(), state.size(),
+                 [&](int begin, int end)
+                 {
+                   state.previous.copy(state.position, begin, end);
+                   undo_.velocity.copy(state.velocity, begin, end);
+                 });
   undo_.grasps = grippers_.all();
   undo_.spheres = spheres_.all();
 }
@@ -250,6 +277,29 @@ void Simulation::undo()
   balance_ = ForceBalance();
 }
 
+/// Whether all particles have places that are numbers and squared speeds up to `limit`.
+bool Simulation::isCalm(Real limit) const
+{
+  const ParticleState& state = cloth_.state;
+  std::atomic<bool> calm{ true };
+  shareStretches(workers_.get(), state.size(),
+                 [&](int begin, int end)
+                 {
+                   const float* position[3];
+                   const float* velocity[3];
+                   for (int k = 0; k < 3; ++k)
+                   {
+                     position[k] = state.position.axis(k) + begin;
+                     velocity[k] = state.velocity.axis(k) + begin;
+                   }
+                   if (!kernels::best().calm(position, velocity, limit, end - begin))
+                   {
+                     calm = false;
+                   }
+                 });
+  return calm;
+}
+
 std::string Simulation::findFault(double max_strain) const
 {
   if (!(max_strain <= params_.runaway_strain))
@@ -258,9 +308,7 @@ std::string Simulation::findFault(double max_strain) const
            " exceeds runaway_strain = " + text(params_.runaway_strain) + ": the step was undone";
   }
   const auto limit = static_cast<Real>(params_.max_speed * params_.max_speed);
-  const ParticleState& state = cloth_.state;
-  if (kernels::best().calm(state.position.axes().data(), state.velocity.axes().data(), limit,
-                           state.size()))
+  if (isCalm(limit))
   {
     return {};
   }
@@ -354,13 +402,17 @@ StepForces Simulation::forces() const
 
 ForceBalance Simulation::forceBalance() const
 {
+  balance_wanted_until_ = step_ + BALANCE_INTEREST;
   return balance_ ? *balance_ : forces().balance();
 }
 
 /// Sums up the last step before the cloth changes.
 void Simulation::keepBalance()
 {
-  balance_ = forceBalance();
+  if (!balance_)
+  {
+    balance_ = forces().balance();
+  }
 }
 
 void Simulation::concludeGrasps(const std::vector<TearEvent>& tears)
@@ -520,8 +572,7 @@ int Simulation::unpin(const PinRequest& request)
 
 double Simulation::utilisationNear(std::uint64_t grasp) const
 {
-  Tearing reader = tearing_;  // reading needs scratch of its own
-  return reader.worst(cloth_, springsNear(cloth_.mesh, grippers_.find(grasp))).utilisation();
+  return tearing_.worst(cloth_, springsNear(cloth_.mesh, grippers_.find(grasp))).utilisation();
 }
 
 void Simulation::moveSphere(std::uint64_t id, const Vec3d& center, double time)
@@ -580,10 +631,8 @@ void Simulation::place(const Vec3Array& positions)
 
 Snapshot Simulation::snapshot() const
 {
-  Snapshot snapshot{ makeSurface(cloth_), spheres_.all(), grippers_.all() };
-  snapshot.surface.time = time();
-  snapshot.surface.step = step_;
-  snapshot.surface.epoch = epoch_;
+  Snapshot snapshot;
+  SnapshotTaker().take(*this, snapshot);
   return snapshot;
 }
 
@@ -612,9 +661,8 @@ Summary Simulation::summary() const
   {
     summary.mass += mass;
   }
-  Tearing reader = tearing_;  // reading needs scratch of its own
-  summary.max_strain = reader.scan(cloth_);
-  const TearReading worst = reader.worst(cloth_);
+  summary.max_strain = Tearing(params_.tearing).scan(cloth_);
+  const TearReading worst = tearing_.worst(cloth_);
   summary.utilisation = worst.utilisation();
   if (worst.spring.valid())
   {

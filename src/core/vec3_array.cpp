@@ -42,6 +42,14 @@ void Vec3Array::push_back(const Vec3& value)
   (*this)[size_ - 1] = kept;
 }
 
+void Vec3Array::copy(const Vec3Array& from, std::size_t begin, std::size_t end)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    std::copy(from.axis(k) + begin, from.axis(k) + end, axis(k) + begin);
+  }
+}
+
 void Vec3Array::setZero()
 {
   std::fill(data_.begin(), data_.end(), Real(0));

@@ -33,6 +33,9 @@ void relax()
 #endif
 }
 
+/// A piece that no share has.
+constexpr std::uint32_t CLOSED = 0xffffffff;
+
 constexpr std::uint64_t ticketOf(std::uint32_t round, std::uint32_t piece)
 {
   return static_cast<std::uint64_t>(round) << 32 | piece;
@@ -86,7 +89,10 @@ void WorkerPool::run(int count, const std::function<void(int)>& work)
   { return static_cast<std::uint32_t>(static_cast<std::size_t>(count) * i / shares_.size()); };
   for (std::size_t i = 0; i < shares_.size(); ++i)
   {
-    shares_[i].end.store(begin(i + 1), std::memory_order_relaxed);
+    // Closed before it has its new end: a thread that still looks round from the last round must
+    // not take a piece of this one on an old ticket.
+    shares_[i].ticket.store(ticketOf(round, CLOSED), std::memory_order_relaxed);
+    shares_[i].end.store(begin(i + 1), std::memory_order_release);
     shares_[i].ticket.store(ticketOf(round, begin(i)), std::memory_order_release);
   }
   round_.store(round);
@@ -147,7 +153,7 @@ void WorkerPool::takeFrom(Share& share, std::uint32_t round)
   while (ticket >> 32 == round)
   {
     const auto piece = static_cast<std::uint32_t>(ticket);
-    if (piece >= share.end.load(std::memory_order_relaxed))
+    if (piece >= share.end.load(std::memory_order_acquire))
     {
       return;
     }

@@ -64,7 +64,8 @@ protected:
     for (int phase = 0; phase < 3; ++phase)
     {
       const int first = phases[phase];
-      shared(phases[phase + 1] - first, [&](int i) { work(first + i, scratch_[first + i]); });
+      share(workers(), phases[phase + 1] - first,
+            [&](int i) { work(first + i, scratch_[first + i]); });
     }
   }
 
@@ -72,7 +73,7 @@ protected:
   template <class Work>
   void forStretches(int particles, const Work& work) const
   {
-    shared(stretches(), [&](int i) { work(stretch(i, particles)); });
+    share(workers(), stretches(), [&](int i) { work(stretch(i, particles)); });
   }
 
   /// Takes what is written in the scratch of all groups over into stretched().

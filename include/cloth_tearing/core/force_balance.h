@@ -40,6 +40,9 @@ struct StepForces
   /// What whoever holds the particle exerts on it [N].
   Vec3d byHolder(int particle) const;
 
+  /// The particle that was there in the step: itself, or whose part it is since a tear after it.
+  int origin(int particle) const;
+
   ForceBalance balance() const;
 };
 

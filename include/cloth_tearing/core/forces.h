@@ -4,6 +4,7 @@
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/material.h"
 #include "cloth_tearing/core/triangle_runs.h"
+#include "cloth_tearing/core/worker_pool.h"
 
 namespace cloth
 {
@@ -17,8 +18,9 @@ public:
   /// air against it (Provot 1995). Held particles get it too: it does not move them, but whoever
   /// holds them feels it.
   /// @param untorn what the cloth was torn from, the same each time until startOver()
+  /// @param workers share the work but for the wind's on triangles; nullptr: nobody does
   void accelerate(const Cloth& cloth, const Mesh& untorn, const Environment& environment,
-                  Vec3Array& acceleration);
+                  Vec3Array& acceleration, WorkerPool* workers = nullptr);
 
   /// Takes over what a tear has changed. To be told after each step; accelerate() would find it out
   /// at greater cost.
@@ -28,7 +30,8 @@ public:
   void startOver() { *this = OuterForces(); }
 
 private:
-  void addWind(const Cloth& cloth, const Environment& environment, Vec3Array& acceleration);
+  void blow(const Cloth& cloth, const Environment& environment);
+  void addWind(const Cloth& cloth, Vec3Array& acceleration, int begin, int end) const;
 
   TriangleRuns triangles_;
   Vec3Array force_;  ///< of the wind, by particle [N]

@@ -293,7 +293,8 @@ public:
   std::vector<PullProgress> pulls() const;
 
   /// Forces on the whole cloth in the last step; zero before the first, and after one that was
-  /// undone. Summed up when asked for.
+  /// undone. Summed up when asked for: if the last step tore, and nobody had asked in the thousand
+  /// steps before, from the parts of the torn cloth.
   ForceBalance forceBalance() const;
 
   /// How many springs the limiter of the force springs drew together in the last step: what hangs
@@ -333,6 +334,7 @@ private:
   double scan();
   void remember();
   void undo();
+  bool isCalm(Real limit) const;
   std::string findFault(double max_strain) const;
   Stability findStability();
   void checkStability(std::vector<std::string>& notes);
@@ -365,6 +367,7 @@ private:
   EventLog<GraspEvent> grasp_log_;
   EventLog<PullEnd> pull_log_;
   std::optional<ForceBalance> balance_ = ForceBalance();  ///< of the last step, once summed up
+  mutable std::uint64_t balance_wanted_until_ = 0;        ///< step
   EventHistory history_;                                  ///< tears of the present cloth
   std::vector<Adopted> adopted_;  ///< one for each history that came with a restored state
   std::array<std::uint64_t, TEAR_KINDS> tears_{};  ///< by kind, since the last reset

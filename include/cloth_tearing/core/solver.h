@@ -111,20 +111,8 @@ public:
   }
 
 protected:
-  /// Calls work(0), ... work(count - 1), side by side if it can.
-  template <class Work>
-  void shared(int count, const Work& work) const
-  {
-    if (workers_ && count > 1)
-    {
-      workers_->run(count, work);
-      return;
-    }
-    for (int i = 0; i < count; ++i)
-    {
-      work(i);
-    }
-  }
+  /// Those that it shares its work among; none: nullptr.
+  WorkerPool* workers() const { return workers_.get(); }
 
   Vec3Array held_;           ///< by particle, of those of inverse mass 0: see heldForce()
   double held_scale_ = 0.0;  ///< to [N]

@@ -461,15 +461,15 @@ void transfer(Archive& archive, EventHistory& history)
 // -- everything -----------------------------------------------------------------------------------
 
 /// All but the logs and what is adopted, which are the life's, and what a step or restored() makes
-/// anew: contact, tearing, loose_pieces, acceleration, outer, suspects, undo, balance, start_time,
-/// start_step, epoch.
+/// anew: contact, tearing, loose_pieces, acceleration, outer, suspects, undo, balance,
+/// wanted_until, start_time, start_step, epoch.
 template <class Archive>
 void transfer(Archive& archive, Simulation& simulation)
 {
   auto& [params, untorn, cloth, solver, contact, tearing, loose_pieces, grippers, spheres,
-         acceleration, outer, suspects, undo, stability, log, grasp_log, pull_log, balance, history,
-         adopted, tears, start_stability, start_time, start_step, step, epoch, workers] =
-      simulation;
+         acceleration, outer, suspects, undo, stability, log, grasp_log, pull_log, balance,
+         wanted_until, history, adopted, tears, start_stability, start_time, start_step, step,
+         epoch, workers] = simulation;
   archive("params", params);
   archive("untorn", untorn);
   archive("cloth", cloth);

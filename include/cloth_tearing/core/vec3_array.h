@@ -77,6 +77,9 @@ public:
   void resize(std::size_t size);
   void assign(std::size_t size, const Vec3& value);
   void push_back(const Vec3& value);
+
+  /// Takes elements `begin` to `end` - 1 from another array that has them.
+  void copy(const Vec3Array& from, std::size_t begin, std::size_t end);
   void setZero();
 
   std::vector<Vec3> toVectors() const;

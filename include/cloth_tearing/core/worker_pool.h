@@ -1,6 +1,7 @@
 // Threads that share the work of a step.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -56,6 +57,35 @@ private:
   std::condition_variable wake_;
   std::vector<std::thread> workers_;
 };
+
+/// Calls work(0), ... work(count - 1): on the pool's threads, or alone if there is none.
+template <class Work>
+void share(WorkerPool* workers, int count, const Work& work)
+{
+  if (workers != nullptr && count > 1)
+  {
+    workers->run(count, std::cref(work));  // a copy of `work` would allocate
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    work(i);
+  }
+}
+
+/// Calls work(begin, end) for stretches that together are 0 to `count`.
+template <class Work>
+void shareStretches(WorkerPool* workers, int count, const Work& work)
+{
+  constexpr int LENGTH = 2048;
+  if (workers == nullptr)
+  {
+    work(0, count);
+    return;
+  }
+  share(workers, (count + LENGTH - 1) / LENGTH,
+        [&](int i) { work(i * LENGTH, std::min(count, (i + 1) * LENGTH)); });
+}
 
 /// How many threads pay off for a cloth of so many particles.
 ///
