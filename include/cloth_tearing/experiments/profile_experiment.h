@@ -25,7 +25,7 @@ struct ProfileOutcome
   double update() const;
 
   /// What of it goes into finding springs over their thresholds [-]. That the solver notes the long
-  /// ones is part of ADVANCE, about 1 % of it.
+  /// ones is part of ADVANCE.
   double detecting() const;
 
   /// What of it goes into cutting the mesh, and all that follows a cut [-].
