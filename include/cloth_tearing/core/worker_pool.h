@@ -77,7 +77,7 @@ void share(WorkerPool* workers, int count, const Work& work)
 template <class Work>
 void shareStretches(WorkerPool* workers, int count, const Work& work)
 {
-  constexpr int LENGTH = 2048;
+  constexpr int LENGTH = 1024;
   if (workers == nullptr)
   {
     work(0, count);
