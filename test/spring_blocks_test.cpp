@@ -152,18 +152,15 @@ TEST_P(Patterns, HoldEachSpringOnceAndNoTwoAtAParticle)
   for (int side : { 2, 5, 30, 100 })
   {
     const Cloth cloth = sheetOf(side, GetParam());
-    for (RunOrder order : { RunOrder::BY_REACH, RunOrder::BY_PLACE })
-    {
-      const SpringBlocks blocks(cloth.springs, cloth.state.size(), order);
-      EXPECT_TRUE(areSound(blocks, cloth.springs)) << side;
-    }
+    const SpringBlocks blocks(cloth.springs, cloth.state.size());
+    EXPECT_TRUE(areSound(blocks, cloth.springs)) << side;
   }
 }
 
 TEST_P(Patterns, StaySoundWhileTheClothIsTorn)
 {
   Cloth cloth = sheetOf(70, GetParam());
-  SpringBlocks blocks(cloth.springs, cloth.state.size(), RunOrder::BY_REACH);
+  SpringBlocks blocks(cloth.springs, cloth.state.size());
   for (int i = 0; i < 20; ++i)
   {
     tearAround(cloth, blocks, 100, i);
@@ -174,7 +171,7 @@ TEST_P(Patterns, StaySoundWhileTheClothIsTorn)
 TEST_P(Patterns, GoOnFromTheirNumbersAsIfTheyHadNeverStopped)
 {
   Cloth cloth = sheetOf(70, GetParam());
-  SpringBlocks blocks(cloth.springs, cloth.state.size(), RunOrder::BY_REACH);
+  SpringBlocks blocks(cloth.springs, cloth.state.size());
   tearAround(cloth, blocks, 300, 1);
   Cloth other_cloth = cloth;
   SpringBlocks other(cloth.springs, cloth.state.size(), blocks.toNumbers());
@@ -190,7 +187,7 @@ TEST_P(Patterns, GoOnFromTheirNumbersAsIfTheyHadNeverStopped)
 TEST_P(Patterns, AreRefusedOrSoundWhateverTheNumbersAre)
 {
   Cloth cloth = sheetOf(20, GetParam());
-  SpringBlocks blocks(cloth.springs, cloth.state.size(), RunOrder::BY_REACH);
+  SpringBlocks blocks(cloth.springs, cloth.state.size());
   tearAround(cloth, blocks, 30, 1);
   const std::vector<int> numbers = blocks.toNumbers();
   std::mt19937_64 random(7);
@@ -219,31 +216,13 @@ TEST_P(Patterns, AreRefusedOrSoundWhateverTheNumbersAre)
 TEST(SpringBlocks, LieInRunsOnAGrid)
 {
   const Cloth cloth = sheetOf(100, RectanglePattern::ONE_DIAGONAL);
-  EXPECT_GT(shareInRuns(SpringBlocks(cloth.springs, cloth.state.size(), RunOrder::BY_REACH)), 0.99);
-}
-
-TEST(SpringBlocks, OrderedByPlaceNeverGoBackToParticlesThatLieBeforeTheWholeOfAnEarlierOne)
-{
-  const Cloth cloth = sheetOf(40, RectanglePattern::ALTERNATING);
-  const SpringBlocks blocks(cloth.springs, cloth.state.size(), RunOrder::BY_PLACE);
-  std::vector<int> latest(cloth.state.size(), 0);  // first particle of the last run at each
-  for (const kernels::RunEnds& run : blocks.groups()[0].run_ends)
-  {
-    for (int end : { run.a, run.b })
-    {
-      for (int lane = 0; lane < LANES; ++lane)
-      {
-        EXPECT_LE(latest[end + lane], run.a);
-        latest[end + lane] = run.a;
-      }
-    }
-  }
+  EXPECT_GT(shareInRuns(SpringBlocks(cloth.springs, cloth.state.size())), 0.99);
 }
 
 TEST(SpringBlocks, OfOnePhaseTouchNoParticleInCommon)
 {
   const Cloth cloth = sheetOf(150, RectanglePattern::IRREGULAR);
-  const SpringBlocks blocks(cloth.springs, cloth.state.size(), RunOrder::BY_REACH);
+  const SpringBlocks blocks(cloth.springs, cloth.state.size());
   ASSERT_GT(blocks.phases()[1], 5);
   for (int phase = 0; phase < 3; ++phase)
   {
@@ -345,7 +324,7 @@ TEST_P(Patterns, AreSolvedToTheSameBitsByAllLoops)
   for (int side : { 3, 30, 70 })
   {
     Cloth cloth = sheetOf(side, GetParam());
-    SpringBlocks blocks(cloth.springs, cloth.state.size(), RunOrder::BY_REACH);
+    SpringBlocks blocks(cloth.springs, cloth.state.size());
     tearAround(cloth, blocks, 50, 3);
     blocks.watch(cloth.springs, 1.0001F);
     const Motion motion(cloth, 11);

@@ -11,7 +11,7 @@ void BlockSolver::arrange(const SpringTable& springs, int particles)
 {
   if (!arranged())
   {
-    blocks_ = recalled_.empty() ? SpringBlocks(springs, particles, order_)
+    blocks_ = recalled_.empty() ? SpringBlocks(springs, particles)
                                 : SpringBlocks(springs, particles, recalled_);
     recalled_.clear();
     seen_ = springs.changes.count();
@@ -94,12 +94,6 @@ kernels::Note* BlockSolver::Notes::roomFor(std::size_t blocks)
 {
   notes.resize(std::max(notes.size(), blocks));
   return notes.data();
-}
-
-int BlockSolver::drawn() const
-{
-  return std::accumulate(scratch_.begin(), scratch_.end(), 0,
-                         [](int sum, const Scratch& scratch) { return sum + scratch.drawn; });
 }
 
 void BlockSolver::pack(const float* const axes[3], const std::vector<int>& particles,

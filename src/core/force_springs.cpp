@@ -16,10 +16,7 @@ constexpr double SAFETY = 0.9;
 
 }  // namespace
 
-// The limiter hands what it corrects on from spring to spring: down from the first row, where cloth
-// hangs.
-ForceSprings::ForceSprings(const SolverParams& params)
-    : BlockSolver(RunOrder::BY_PLACE), params_(params)
+ForceSprings::ForceSprings(const SolverParams& params) : params_(params)
 {
 }
 
@@ -114,38 +111,43 @@ void ForceSprings::addImpulse(const ParticleState& state, Real dt)
   }
 }
 
+/// Spring by spring in the order of their ids, which is what decides how far a correction gets: in
+/// the order of the blocks the limiter holds more, and the thesis' third ball slides off fine
+/// cloth.
 void ForceSprings::limitStrain(ParticleState& state, const SpringTable& springs)
 {
-  arrange(springs, state.size());
   const auto most = static_cast<Real>(1.0 + params_.max_strain);
-  const kernels::Places places = { { state.position.axis(0), state.position.axis(1),
-                                     state.position.axis(2) },
-                                   state.inverse_mass.data() };
-  forGroups([&](int g, Scratch& scratch)
-            { scratch.drawn = draw(groups()[g], scratch, places, most); });
-}
-
-int ForceSprings::draw(const SpringGroup& group, Scratch& scratch, const kernels::Places& places,
-                       float most)
-{
-  const kernels::Set& loops = kernels::best();
-  const int drawn = loops.draw_runs(places, group.run_ends.data(), group.run_lanes.data(), most,
-                                    static_cast<int>(group.run_ends.size()));
-  if (group.loose_ends.empty())
+  limited_ = 0;
+  for (const SpringLaw& spring : springs.structural)
   {
-    return drawn;
+    if (!spring.active())
+    {
+      continue;
+    }
+    const Real wa = state.inverse_mass[spring.a];
+    const Real wb = state.inverse_mass[spring.b];
+    auto a = state.position[spring.a];
+    auto b = state.position[spring.b];
+    const Vec3 d = b - a;
+    const Real limit = most * spring.rest;
+    const Real squared = d.squaredNorm();
+    if (!(squared > limit * limit) || !(wa + wb > 0))
+    {
+      continue;
+    }
+    ++limited_;
+    // Half each, as in the thesis, unless one end is held.
+    const Vec3 correction = (Real(1) - limit / std::sqrt(squared)) * d;
+    const Real share = wa > 0 && wb > 0 ? Real(0.5) : Real(1);
+    if (wa > 0)
+    {
+      a += share * correction;
+    }
+    if (wb > 0)
+    {
+      b -= share * correction;
+    }
   }
-  auto& place = scratch.records[0];
-  pack(places.position, group.particles, place);
-  packMasses(places.inverse_mass, group.particles, place);
-  const int loose =
-      loops.draw_records(place.data(), group.loose_ends.data(), group.loose_lanes.data(), most,
-                         static_cast<int>(group.loose_ends.size()));
-  if (loose > 0)
-  {
-    unpack(place, group.particles, places.position);
-  }
-  return drawn + loose;
 }
 
 Stability ForceSprings::checkStability(const ParticleState& state, const SpringTable& springs,

@@ -513,88 +513,6 @@ int pullRecords(const BodyRecords& records, const RecordEnds* ends, const Lanes*
   return noted;
 }
 
-// -- the limiter -----------------------------------------------------------------------------------
-
-struct Excess
-{
-  End d;             ///< from end to end
-  Vector by_a, by_b;  ///< how far each end moves, by d
-  Mask over;         ///< longer than allowed
-};
-
-inline Excess excessOf(const End& a, const End& b, Vector wa, Vector wb, const Lanes& lanes,
-                       int lane, float most)
-{
-  const Vector zero = Vector{};
-  const Vector limit = most * load(lanes.rest + lane);
-  Excess excess;
-  excess.d = b - a;
-  const Vector squared = dot(excess.d, excess.d);
-  excess.over = (squared > limit * limit) & (wa + wb > zero) &
-                (limit > zero) & (load(lanes.limit + lane) < zero + __builtin_inff());
-  const Vector excess_part = 1.0f - limit / root(squared);
-  const Vector share = (wa > zero) & (wb > zero) ? zero + 0.5f : zero + 1.0f;
-  excess.by_a = excess.over & (wa > zero) ? share * excess_part : zero;
-  excess.by_b = excess.over & (wb > zero) ? -(share * excess_part) : zero;
-  return excess;
-}
-
-/// Lanes that are not too long keep their very bits: adding nothing makes a zero of -0, and which
-/// lanes are looked at together depends on the width.
-inline End drawnEnd(const End& at, Vector by, const Excess& excess)
-{
-  const End to = moved(at, by, excess.d);
-  return { excess.over ? to.x : at.x, excess.over ? to.y : at.y, excess.over ? to.z : at.z };
-}
-
-int drawRuns(const Places& places, const RunEnds* ends, const Lanes* lanes, float most, int count)
-{
-  int drawn = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    for (int lane = 0; lane < LANES; lane += WIDTH)
-    {
-      const int a = ends[i].a + lane;
-      const int b = ends[i].b + lane;
-      const End at_a = loadEnd(places.position, a);
-      const Excess excess =
-          excessOf(at_a, loadEnd(places.position, b), load(places.inverse_mass + a),
-                   load(places.inverse_mass + b), lanes[i], lane, most);
-      if (__builtin_expect(any(excess.over), 0))
-      {
-        storeEnd(places.position, a, drawnEnd(at_a, excess.by_a, excess));
-        storeEnd(places.position, b, drawnEnd(loadEnd(places.position, b), excess.by_b, excess));
-        drawn += __builtin_popcount(bitsOf(excess.over));
-      }
-    }
-  }
-  return drawn;
-}
-
-int drawRecords(Record* place, const RecordEnds* ends, const Lanes* lanes, float most, int count)
-{
-  int drawn = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    for (int lane = 0; lane < LANES; lane += WIDTH)
-    {
-      const int* a = ends[i].a + lane;
-      const int* b = ends[i].b + lane;
-      const FourVectors at_a = loadRecords(place, a);
-      const FourVectors at_b = loadRecords(place, b);
-      const Excess excess =
-          excessOf(endOf(at_a), endOf(at_b), at_a.w, at_b.w, lanes[i], lane, most);
-      if (__builtin_expect(any(excess.over), 0))
-      {
-        storeRecords(place, a, drawnEnd(endOf(at_a), excess.by_a, excess), at_a.w);
-        storeRecords(place, b, drawnEnd(endOf(at_b), excess.by_b, excess), at_b.w);
-        drawn += __builtin_popcount(bitsOf(excess.over));
-      }
-    }
-  }
-  return drawn;
-}
-
 // -- wind ------------------------------------------------------------------------------------------
 
 inline End cross(const End& a, const End& b)
@@ -818,7 +736,7 @@ void integrate(float* __restrict position, float* __restrict velocity,
   }
 }
 
-constexpr Set SET = { NAME,     sweepRuns, sweepRecords, pullRuns, pullRecords, drawRuns,
-                      drawRecords, blowRuns, blowEnds, accelerate, addForce, sides, calm, predict, finish, above, integrate };
+constexpr Set SET = { NAME,     sweepRuns, sweepRecords, pullRuns, pullRecords, 
+                      blowRuns, blowEnds, accelerate, addForce, sides, calm, predict, finish, above, integrate };
 
 // NOLINTEND

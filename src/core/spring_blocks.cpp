@@ -103,7 +103,7 @@ SpringBlocks::SpringBlocks(const SpringTable& springs, int particles, int divide
   records_.assign(particles, 0);
 }
 
-SpringBlocks::SpringBlocks(const SpringTable& springs, int particles, RunOrder order)
+SpringBlocks::SpringBlocks(const SpringTable& springs, int particles)
     : SpringBlocks(springs, particles, particles)
 {
   std::vector<std::vector<Link>> links(groups_.size());
@@ -119,7 +119,7 @@ SpringBlocks::SpringBlocks(const SpringTable& springs, int particles, RunOrder o
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g)
   {
     const bool last = g + 1 == static_cast<int>(groups_.size());
-    for (const Link& link : makeRuns(g, std::move(links[g]), particles, order, springs))
+    for (const Link& link : makeRuns(g, std::move(links[g]), particles, springs))
     {
       addLoose(g, link, springs);
     }
@@ -150,8 +150,7 @@ int SpringBlocks::groupOf(int a, int b) const
 
 /// @return links that lie in no run, by particle
 std::vector<SpringBlocks::Link> SpringBlocks::makeRuns(int group, std::vector<Link> links,
-                                                       int particles, RunOrder order,
-                                                       const SpringTable& springs)
+                                                       int particles, const SpringTable& springs)
 {
   const auto by_reach = [](const Link& link)
   { return std::make_tuple(link.b - link.a, link.a, link.link); };
@@ -196,11 +195,6 @@ std::vector<SpringBlocks::Link> SpringBlocks::makeRuns(int group, std::vector<Li
       taken[member] = 1;
     }
     runs.push_back(run);
-  }
-  if (order == RunOrder::BY_PLACE)
-  {
-    std::stable_sort(runs.begin(), runs.end(),
-                     [](const Run& a, const Run& b) { return a.ends.a < b.ends.a; });
   }
   spread(runs, target.begin, end);
   for (const Run& run : runs)

@@ -20,8 +20,6 @@ public:
   void recall(const SolverMemory& memory) override;
 
 protected:
-  explicit BlockSolver(RunOrder order) : order_(order) {}
-
   /// Notes of blocks; its room only grows.
   struct Notes
   {
@@ -38,7 +36,6 @@ protected:
     std::array<std::vector<kernels::Record>, 3> records;  ///< of what loose springs touch
     Notes run_notes;
     Notes loose_notes;
-    int drawn = 0;  ///< springs that a limiter drew together
   };
 
   struct Range
@@ -79,9 +76,6 @@ protected:
   /// Takes what is written in the scratch of all groups over into stretched().
   void collectNotes(std::size_t springs);
 
-  /// Sum of Scratch::drawn.
-  int drawn() const;
-
   /// Copies x, y and z of a group's particles into its records, and back.
   static void pack(const float* const axes[3], const std::vector<int>& particles,
                    std::vector<kernels::Record>& records);
@@ -96,7 +90,6 @@ private:
   bool arranged() const { return !blocks_.groups().empty(); }
   void take(const Notes& notes, const std::vector<Links>& links);
 
-  RunOrder order_;
   SpringBlocks blocks_;
   std::uint64_t seen_ = 0;        ///< changes of the springs that blocks_ has followed
   std::vector<int> recalled_;     ///< what blocks_ are to be made from; empty: from the springs

@@ -21,7 +21,7 @@ public:
                double dt) override;
   void limitStrain(ParticleState& state, const SpringTable& springs) override;
   Vec3d addedImpulse() const override { return added_impulse_; }
-  int limited() const override { return drawn(); }
+  int limited() const override { return limited_; }
   Stability checkStability(const ParticleState& state, const SpringTable& springs, double dt,
                            double air_rate) override;
   SolverMemory memory() const override;
@@ -29,8 +29,6 @@ public:
 
 private:
   static void pull(const SpringGroup& group, Scratch& scratch, const kernels::Bodies& bodies);
-  static int draw(const SpringGroup& group, Scratch& scratch, const kernels::Places& places,
-                  float most);
   void addForces(const ParticleState& state);
   void integrate(ParticleState& state, const Vec3Array& acceleration, Range range, Real dt);
   void addImpulse(const ParticleState& state, Real dt);
@@ -38,6 +36,7 @@ private:
 
   SolverParams params_;
   int substeps_ = 1;
+  int limited_ = 0;                       ///< springs that limitStrain() drew together
   Vec3d added_impulse_ = Vec3d::Zero();   ///< on slivers treated as heavier than they are [N s]
   Vec3Array force_;                       ///< by particle [N]
   std::vector<Real> inverse_mass_limit_;  ///< by particle [1/kg]: lighter ones are treated as this

@@ -117,13 +117,6 @@ struct Air
   float drag;                ///< pressure per normal speed [N s/m^3]
 };
 
-/// The particles as the limiter sees them.
-struct Places
-{
-  float* position[3];         ///< x, y, z [m]
-  const float* inverse_mass;  ///< [1/kg]
-};
-
 /// The loops for one instruction set.
 struct Set
 {
@@ -143,15 +136,6 @@ struct Set
                    Note* notes);
   int (*pull_records)(const BodyRecords& records, const RecordEnds* ends, const Lanes* lanes,
                       int count, Note* notes);
-
-  /// Draws structural springs together that are longer than `most` rest lengths, one block after
-  /// the other (Provot 1995): half each end, or all where the other does not move.
-  /// @return how many they were
-  int (*draw_runs)(const Places& places, const RunEnds* ends, const Lanes* lanes, float most,
-                   int count);
-  /// @param place w: inverse mass
-  int (*draw_records)(Record* place, const RecordEnds* ends, const Lanes* lanes, float most,
-                      int count);
 
   /// Adds what the wind does to triangles to their corners (Provot 1995).
   void (*blow_runs)(const Air& air, const TriangleRun* runs, const Areas* areas, int count);

@@ -32,13 +32,6 @@ struct SpringGroup
   std::vector<int> particles;  ///< of each record; of the first, -1: lanes without a spring have it
 };
 
-/// In which order runs are gone through.
-enum class RunOrder
-{
-  BY_REACH,  ///< springs of one direction after those of another: the stiffest sweeps
-  BY_PLACE,  ///< from the first particles to the last, as the springs are numbered
-};
-
 /// All springs of a cloth in blocks of which no two springs share a particle.
 ///
 /// Where a spring lies depends on the cloth and on its tears one after the other, never on the
@@ -49,7 +42,7 @@ public:
   SpringBlocks() = default;
 
   /// Arranges all springs of a table anew.
-  SpringBlocks(const SpringTable& springs, int particles, RunOrder order);
+  SpringBlocks(const SpringTable& springs, int particles);
 
   /// Arranges them as toNumbers() told.
   /// @throws Refusal if that is no sound arrangement of these springs
@@ -105,7 +98,7 @@ private:
   void readLoose(int group, const Links& links, const SpringTable& springs);
   void readOpen(int bit, int block, int filled);
   int groupOf(int a, int b) const;
-  std::vector<Link> makeRuns(int group, std::vector<Link> links, int particles, RunOrder order,
+  std::vector<Link> makeRuns(int group, std::vector<Link> links, int particles,
                              const SpringTable& springs);
   void addRun(int group, const kernels::RunEnds& ends, const Links& links,
               const SpringTable& springs);

@@ -13,8 +13,6 @@ namespace cloth
 class XpbdSolver : public BlockSolver
 {
 public:
-  XpbdSolver() : BlockSolver(RunOrder::BY_REACH) {}
-
   std::unique_ptr<Solver> clone() const override;
   void advance(ParticleState& state, const SpringTable& springs, const Vec3Array& acceleration,
                double dt) override;
