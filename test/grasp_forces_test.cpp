@@ -211,16 +211,23 @@ TEST_P(GraspForces, KeepTheBalanceOfTheLastStepWhenTheClothIsChangedAfterIt)
   EXPECT_EQ(simulation.forceBalance().momentum_rate, Vec3d::Zero().eval());
 }
 
+/// A small sheet that hangs from its upper edge and is pulled down by its lower one until it tears.
+Simulation pulledApart(const SimulationParams& params)
+{
+  const ClothModel flat = sheet(0.3, 0.3, 7, 7);
+  Simulation simulation(upright(flat), edgeOf(flat, "top"), params);
+  DragTarget target;
+  target.pose.position = Vec3d(0.0, 0.0, -0.7);
+  target.linear_speed = 0.5;
+  simulation.drag(take(simulation, Vec3d(0.0, 0.0, -0.3), 0.06), target);
+  return simulation;
+}
+
 TEST_P(GraspForces, AddUpInAStepThatTears)
 {
   SimulationParams params = tearable(GetParam());
   params.solver.max_substeps = 64;
-  Simulation simulation(upright(sheet(0.3, 0.3, 7, 7)), { 0, 1, 2, 3, 4, 5, 6 }, params);
-  const std::uint64_t grasp = take(simulation, Vec3d(0.0, 0.0, -0.3), 0.06);
-  DragTarget target;
-  target.pose.position = Vec3d(0.0, 0.0, -0.7);
-  target.linear_speed = 0.5;
-  simulation.drag(grasp, target);
+  Simulation simulation = pulledApart(params);
   const double weight = weightOf(simulation).norm();
   int torn = 0;
   double strongest = 0.0;
@@ -241,12 +248,7 @@ TEST_P(GraspForces, AreNearlyTheSameIfFirstAskedForAfterATear)
 {
   SimulationParams params = tearable(GetParam());
   params.solver.max_substeps = 64;
-  Simulation simulation(upright(sheet(0.3, 0.3, 7, 7)), { 0, 1, 2, 3, 4, 5, 6 }, params);
-  const std::uint64_t grasp = take(simulation, Vec3d(0.0, 0.0, -0.3), 0.06);
-  DragTarget target;
-  target.pose.position = Vec3d(0.0, 0.0, -0.7);
-  target.linear_speed = 0.5;
-  simulation.drag(grasp, target);
+  Simulation simulation = pulledApart(params);
   int torn = 0;
   double strongest = 0.0;
   for (int i = 0; i < 800; ++i)
@@ -273,12 +275,7 @@ TEST(ForceBalanceOfForceSprings, CountsWhatSliversGainThatAreTreatedAsHeavier)
 {
   SimulationParams params = tearable(SolverKind::FORCE_SPRINGS);
   params.solver.max_substeps = 1;  // not enough for what tears leave behind
-  const ClothModel flat = sheet(0.3, 0.3, 7, 7);
-  Simulation simulation(upright(flat), edgeOf(flat, "top"), params);
-  DragTarget target;
-  target.pose.position = Vec3d(0.0, 0.0, -0.7);
-  target.linear_speed = 0.5;
-  simulation.drag(take(simulation, Vec3d(0.0, 0.0, -0.3), 0.06), target);
+  Simulation simulation = pulledApart(params);
   double gained = 0.0;
   double strongest = 0.0;
   for (int i = 0; i < 800; ++i)
