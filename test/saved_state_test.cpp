@@ -603,6 +603,21 @@ TEST_P(SavedStateBytesOf, AnyStateWithOneByteChangedAreRefusedOrRun)
   bearChanges(simulation, state, [](unsigned char) { return 0xff; });
 }
 
+TEST(RestoredState, IsSteppedByAsManyThreadsAsItsOwnClothWants)
+{
+  SimulationParams params = tearable();
+  params.threads = 2;
+  const auto sheetOf = [&params](int side)
+  { return Simulation(upright(sheet(1.0, 1.0, side, side)), { 0 }, params); };
+  const Simulation small = sheetOf(20);
+  const Simulation large = sheetOf(70);
+  ASSERT_EQ(small.threads(), 1);
+  ASSERT_EQ(large.threads(), 2);
+
+  EXPECT_EQ(small.restored(large.save()).threads(), 2);
+  EXPECT_EQ(large.restored(small.save()).threads(), 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothSolvers, SavedStateBytesOf,
                          ::testing::Values(SolverKind::XPBD, SolverKind::FORCE_SPRINGS),
                          [](const ::testing::TestParamInfo<SolverKind>& solver)

@@ -154,6 +154,20 @@ TEST_P(TunedWithBothSolvers, TornClothKeepsItsTearsAndWhoHoldsItAndGetsTheNewMas
   EXPECT_TRUE(simulation.step().fault.empty());
 }
 
+TEST(Tuning, OfTheMaterialTimeAndAgainTakesNoMoreMemory)
+{
+  Simulation simulation = hanging(tearable());
+  Tuning tuning = tuningOf(simulation.params());
+  for (int i = 0; i < 10; ++i)
+  {
+    tuning.material.stiffness *= 1.01;
+    simulation.tune(tuning);
+  }
+  EXPECT_EQ(simulation.cloth().springs.changes.size(), 0u);
+  simulation.reset();
+  EXPECT_EQ(simulation.cloth().springs.changes.size(), 0u) << "of the untorn cloth";
+}
+
 TEST(Tuning, WakesNoPieceThatWasPutToRest)
 {
   SimulationParams params = untearable();

@@ -121,13 +121,14 @@ Simulation Simulation::restored(const std::string& bytes) const
   refuseUnsound(next.spheres_.all());
 
   next.outer_.startOver();
-  next.solver_->shareWork(workers_);
+  next.makeWorkers();
   next.tearing_ = Tearing(next.params_.tearing);
   next.watchSprings();
   next.start_time_ = time();
   next.start_step_ = next.step_;
   ++next.epoch_;
   next.balance_ = ForceBalance();
+  next.balance_wanted_until_ = 0;
   next.adopt(origin.life, origin.tears);
   next.grippers_.resume(next.log_.range()[1] + 1);
   next.publish();

@@ -148,9 +148,7 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
     , grasp_log_(params.tear_log_size)
     , pull_log_(ENDED_PULLS)
 {
-  const int threads = threadsFor(params.threads, untorn_.state.size());
-  workers_ = threads > 1 ? std::make_shared<WorkerPool>(threads) : nullptr;
-  solver_->shareWork(workers_);
+  makeWorkers();
   watchSprings();
   stability_ = findStability();
   start_stability_ = stability_;
@@ -240,6 +238,17 @@ double Simulation::scan()
   }
   sortOnce(suspects_);
   return tearing_.scan(cloth_, suspects_);
+}
+
+/// As many threads as pay off for this cloth.
+void Simulation::makeWorkers()
+{
+  const int wanted = threadsFor(params_.threads, untorn_.state.size());
+  if (wanted != threads())
+  {
+    workers_ = wanted > 1 ? std::make_shared<WorkerPool>(wanted) : nullptr;
+  }
+  solver_->shareWork(workers_);
 }
 
 void Simulation::makeSolver()
@@ -463,6 +472,7 @@ void Simulation::startOver(const std::string& why)
   stability_ = findStability();
   spheres_.clear();
   balance_ = ForceBalance();
+  balance_wanted_until_ = 0;
   tears_ = {};
   history_ = {};
   start_time_ = time();

@@ -129,6 +129,7 @@ std::vector<std::string> Simulation::tune(const Tuning& tuning)
   {
     other_untorn = untorn_;
     other_untorn->setMaterial(params.material);
+    other_untorn->springs.changes.forget();  // nobody follows the untorn cloth
   }
   const Cloth& untorn = other_material ? *other_untorn : untorn_;
   const bool other_motion = !sameMotion(params, params_);
@@ -144,6 +145,7 @@ std::vector<std::string> Simulation::tune(const Tuning& tuning)
   {
     untorn_ = std::move(*other_untorn);
     cloth_.setMaterial(params.material);
+    cloth_.springs.changes.forget();  // who follows this one looks at all of it anew
   }
   if (other_hem)
   {

@@ -24,7 +24,6 @@ constexpr int SHORTEST_RUN = 6;
 constexpr int FEW_HOLES = 256;
 
 constexpr int NO_PARTICLE = -1;
-constexpr Real MOST = std::numeric_limits<Real>::max();
 
 int lowestBit(std::uint64_t bits)
 {
@@ -407,7 +406,7 @@ void SpringBlocks::write(int link, const SpringTable& springs)
   lanes.rest[place.lane] = law.rest;
   lanes.stiffness[place.lane] = law.stiffness;
   lanes.damping[place.lane] = law.damping;
-  lanes.limit[place.lane] = link % 2 == 0 ? std::min(watched_ * (law.rest * law.rest), MOST)
+  lanes.limit[place.lane] = link % 2 == 0 ? watched_ * (law.rest * law.rest)
                                           : std::numeric_limits<float>::infinity();
 }
 

@@ -2,6 +2,7 @@
 #include "cloth_tearing/core/worker_pool.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include "cloth_tearing/core/flush_subnormals.h"
 
@@ -52,9 +53,16 @@ int threadsFor(int wanted, int particles)
 
 WorkerPool::WorkerPool(int threads) : shares_(static_cast<std::size_t>(std::max(1, threads)))
 {
-  for (std::size_t i = 1; i < shares_.size(); ++i)
+  try
   {
-    workers_.emplace_back([this, i] { serve(i); });
+    for (std::size_t i = 1; i < shares_.size(); ++i)
+    {
+      workers_.emplace_back([this, i] { serve(i); });
+    }
+  }
+  catch (const std::system_error&)
+  {
+    // The others do what was meant for those that are missing.
   }
 }
 
@@ -73,8 +81,7 @@ WorkerPool::~WorkerPool()
 
 void WorkerPool::run(int count, const std::function<void(int)>& work)
 {
-  const std::unique_lock<std::mutex> mine(caller_, std::try_to_lock);
-  if (shares_.size() == 1 || count <= 1 || !mine)
+  if (workers_.empty() || count <= 1 || busy_.test_and_set(std::memory_order_acquire))
   {
     for (int i = 0; i < count; ++i)
     {
@@ -106,6 +113,7 @@ void WorkerPool::run(int count, const std::function<void(int)>& work)
   {
     spins < SPINS ? relax() : std::this_thread::yield();
   }
+  busy_.clear(std::memory_order_release);
 }
 
 /// What a worker does all its life.

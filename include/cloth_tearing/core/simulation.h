@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "cloth_tearing/core/surface.h"
 #include "cloth_tearing/core/tear_rules.h"
 #include "cloth_tearing/core/tearing.h"
+#include "cloth_tearing/core/worker_pool.h"
 
 namespace cloth
 {
@@ -301,6 +303,9 @@ public:
   /// on them pulls less on grasps and pins than it weighs.
   int limitedSprings() const { return solver_->limited(); }
 
+  /// Threads that share a step, the caller's included.
+  int threads() const { return workers_ ? workers_->threads() : 1; }
+
   /// Strain over threshold where the cloth at a grasp, and one ring round it, is nearest to tearing
   /// [-]; 1 = tears. @throws Refusal if there is no such grasp
   double utilisationNear(std::uint64_t grasp) const;
@@ -329,6 +334,7 @@ private:
     EventHistory ours;
   };
 
+  void makeWorkers();
   void makeSolver();
   void watchSprings();
   double scan();
@@ -376,7 +382,7 @@ private:
   std::uint64_t start_step_ = 0;                   ///< with which the epoch began
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
-  std::shared_ptr<WorkerPool> workers_;  ///< of the solver; none: it works alone
+  std::shared_ptr<WorkerPool> workers_;  ///< share the work of a step; none: it is done alone
 };
 
 }  // namespace cloth

@@ -34,6 +34,9 @@ public:
 
   std::uint64_t count() const { return forgotten_ + springs_.size(); }
 
+  /// How many are kept.
+  std::size_t size() const { return springs_.size(); }
+
   /// Those after the first `seen`, by SpringId, maybe more than once.
   /// @return false if they are not known any more
   bool since(std::uint64_t seen, std::vector<int>& springs) const;

@@ -20,7 +20,7 @@ namespace cloth
 class WorkerPool
 {
 public:
-  /// @param threads the caller's included, >= 1
+  /// @param threads the caller's included, >= 1; fewer if the system starts no more
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -29,7 +29,8 @@ public:
   int threads() const { return static_cast<int>(shares_.size()); }
 
   /// Calls work(0), work(1), ... work(count - 1), in any order and on any thread, and returns when
-  /// all are done. A caller who comes while another one is being served does its work alone.
+  /// all are done. Work must not throw. A caller who comes while another one is being served does
+  /// its work alone.
   void run(int count, const std::function<void(int)>& work);
 
 private:
@@ -47,7 +48,7 @@ private:
   void takeFrom(Share& share, std::uint32_t round);
 
   std::vector<Share> shares_;
-  std::mutex caller_;
+  std::atomic_flag busy_ = ATOMIC_FLAG_INIT;  ///< a caller is being served
   const std::function<void(int)>* work_ = nullptr;
   alignas(64) std::atomic<std::uint32_t> round_{ 0 };
   alignas(64) std::atomic<int> left_{ 0 };
