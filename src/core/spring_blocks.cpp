@@ -406,8 +406,8 @@ void SpringBlocks::write(int link, const SpringTable& springs)
   lanes.rest[place.lane] = law.rest;
   lanes.stiffness[place.lane] = law.stiffness;
   lanes.damping[place.lane] = law.damping;
-  lanes.limit[place.lane] = link % 2 == 0 ? watched_ * (law.rest * law.rest)
-                                          : std::numeric_limits<float>::infinity();
+  lanes.limit[place.lane] =
+      link % 2 == 0 ? watched_ * (law.rest * law.rest) : std::numeric_limits<float>::infinity();
 }
 
 void SpringBlocks::watch(const SpringTable& springs, Real watched)
