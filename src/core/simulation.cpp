@@ -224,6 +224,10 @@ double Simulation::scan()
   {
     return tearing_.scan(cloth_);
   }
+  if (pushed.empty())
+  {
+    return tearing_.scan(cloth_, solver_->stretched());
+  }
   suspects_ = solver_->stretched();
   for (int p : pushed)
   {
