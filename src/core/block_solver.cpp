@@ -121,13 +121,4 @@ void BlockSolver::unpack(const std::vector<kernels::Record>& records,
   }
 }
 
-void BlockSolver::packMasses(const float* inverse_mass, const std::vector<int>& particles,
-                             std::vector<kernels::Record>& records)
-{
-  for (std::size_t r = 1; r < particles.size(); ++r)
-  {
-    records[r].w = inverse_mass[particles[r]];
-  }
-}
-
 }  // namespace cloth

@@ -8,6 +8,21 @@ namespace cloth
 
 using kernels::Particles;
 
+namespace
+{
+
+/// Of a group's particles, into w of their records.
+void packMasses(const float* inverse_mass, const std::vector<int>& particles,
+                std::vector<kernels::Record>& records)
+{
+  for (std::size_t r = 1; r < particles.size(); ++r)
+  {
+    records[r].w = inverse_mass[particles[r]];
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<Solver> XpbdSolver::clone() const
 {
   return std::make_unique<XpbdSolver>(*this);

@@ -82,10 +82,6 @@ protected:
   static void unpack(const std::vector<kernels::Record>& records, const std::vector<int>& particles,
                      float* const axes[3]);
 
-  /// Their inverse masses, into w.
-  static void packMasses(const float* inverse_mass, const std::vector<int>& particles,
-                         std::vector<kernels::Record>& records);
-
 private:
   bool arranged() const { return !blocks_.groups().empty(); }
   void take(const Notes& notes, const std::vector<Links>& links);
