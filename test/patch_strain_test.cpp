@@ -287,5 +287,27 @@ TEST(PatchStrain, EqualsUniformStrainStillAfterTheMeshHasGrown)
   }
 }
 
+TEST(PatchStrain, ReadsTheSameAfterFollowingTearsAsOneThatBeginsAnew)
+{
+  const ClothModel model = sheet(8, 8, RectanglePattern::IRREGULAR, 2.0, 3);
+  Cloth cloth = clothOf(model);
+  deform(cloth, model,
+         [](const Vec3d& x) { return Vec3d(x.x() + 0.3 * x.x() * x.y(), 1.2 * x.y(), x.x()); });
+  PatchStrain follows;
+  for (int tear = 0; tear < 30; ++tear)
+  {
+    for (int i = 0; i < cloth.mesh.springCount(); ++i)
+    {
+      ASSERT_EQ(follows.readStill(cloth, { i }, 0.6), PatchStrain().read(cloth, { i }, 0.6))
+          << "spring " << i << " after " << tear << " tears";
+    }
+    const Edit edit = cloth.mesh.splitSpring({ 5 * tear });
+    cloth.follow(edit);
+    follows.follow(cloth, edit.touched);
+    cloth.state.position[edit.particles[0].id.index] += Vec3(Real(0.01), 0, 0);
+    follows.moved();
+  }
+}
+
 }  // namespace
 }  // namespace cloth

@@ -6,6 +6,12 @@
 
 namespace cloth
 {
+namespace
+{
+
+constexpr int WORD = 64;  ///< bits
+
+}  // namespace
 
 void BlockSolver::arrange(const SpringTable& springs, int particles)
 {
@@ -67,24 +73,33 @@ void BlockSolver::collectNotes(std::size_t springs)
   {
     stretched_.reserve(2 * springs);  // steady steps do not allocate
   }
+  noted_.resize(springs / WORD + 1, 0);
   for (std::size_t g = 0; g < scratch_.size(); ++g)
   {
     take(scratch_[g].run_notes, groups()[g].run_links);
     take(scratch_[g].loose_notes, groups()[g].loose_links);
   }
-  std::sort(stretched_.begin(), stretched_.end());
+  for (std::size_t word = 0; word < noted_.size(); ++word)
+  {
+    for (; noted_[word] != 0; noted_[word] &= noted_[word] - 1)
+    {
+      stretched_.push_back(static_cast<int>(WORD * word) + lowestBit(noted_[word]));
+    }
+  }
 }
 
+/// Marks springs: ascending without being sorted, however many there are.
 void BlockSolver::take(const Notes& notes, const std::vector<Links>& links)
 {
   for (int i = 0; i < notes.count; ++i)
   {
     const kernels::Note& note = notes.notes[i];
-    for (int lane = 0; lane < kernels::LANES; ++lane)
+    for (unsigned lanes = note.lanes; lanes != 0; lanes &= lanes - 1)
     {
-      if ((note.lanes >> lane & 1U) != 0 && links[note.block][lane] >= 0)
+      const int link = links[note.block][lowestBit(lanes)];
+      if (link >= 0)
       {
-        stretched_.push_back(links[note.block][lane] / 2);
+        noted_[link / 2 / WORD] |= bitOf(link / 2 % WORD);
       }
     }
   }

@@ -675,7 +675,7 @@ Summary Simulation::summary() const
   {
     summary.mass += mass;
   }
-  summary.max_strain = Tearing(params_.tearing).scan(cloth_);
+  summary.max_strain = largestStrain(cloth_);
   const TearReading worst = tearing_.worst(cloth_);
   summary.utilisation = worst.utilisation();
   if (worst.spring.valid())

@@ -25,16 +25,6 @@ constexpr int FEW_HOLES = 256;
 
 constexpr int NO_PARTICLE = -1;
 
-int lowestBit(std::uint64_t bits)
-{
-  int bit = 0;
-  while ((bits >> bit & 1) == 0)
-  {
-    ++bit;
-  }
-  return bit;
-}
-
 /// A run that is being put together.
 struct Run
 {

@@ -125,6 +125,12 @@ void keepHeld(Cloth& cloth, std::vector<Grasp>& grasps, const Edit& edit, Spring
   }
 }
 
+/// A NaN must not hide.
+void keepLarger(double& most, double strain)
+{
+  most = strain > most || !(strain == strain) ? strain : most;
+}
+
 /// A tear ends at `p` now and may run on, unless it is pinned, or hangs by one point there.
 void weaken(Cloth& cloth, ParticleId p)
 {
@@ -133,6 +139,19 @@ void weaken(Cloth& cloth, ParticleId p)
 }
 
 }  // namespace
+
+double largestStrain(const Cloth& cloth)
+{
+  double most = 0.0;
+  for (int i = 0; i < cloth.mesh.springCount(); ++i)
+  {
+    if (cloth.springs.structural[i].active())
+    {
+      keepLarger(most, cloth.strain({ i }));
+    }
+  }
+  return most;
+}
 
 /// What every threshold of the spring is multiplied by [-].
 double Tearing::strength(const Cloth& cloth, SpringId s) const
@@ -212,7 +231,7 @@ TearReading Tearing::read(const Cloth& cloth, SpringId s, double own) const
 {
   TearReading reading = unread(cloth, s);
   const bool on_patch = reading.kind == TearKind::BASIC && own > reading.threshold;
-  reading.strain = on_patch ? patch_.read(cloth, s, rules_.tear_radius) : own;
+  reading.strain = on_patch ? patch_.readStill(cloth, s, rules_.tear_radius) : own;
   return reading;
 }
 
@@ -230,7 +249,7 @@ double Tearing::leastThreshold(const Cloth& cloth) const
 void Tearing::look(const Cloth& cloth, SpringId s, double& most)
 {
   const double own = cloth.strain(s);
-  most = own > most || !(own == own) ? own : most;  // a NaN must not hide
+  keepLarger(most, own);
   if (rules_.enabled && own > cloth.damage.strength[s.index] * leastRule())
   {
     const TearReading reading = read(cloth, s, own);
@@ -243,7 +262,7 @@ void Tearing::look(const Cloth& cloth, SpringId s, double& most)
 
 double Tearing::scan(const Cloth& cloth)
 {
-  found_.clear();
+  beginScan();
   const auto& x = cloth.state.position;
   double most = 0.0;
   const double least = leastThreshold(cloth);
@@ -258,20 +277,32 @@ double Tearing::scan(const Cloth& cloth)
       look(cloth, { i }, most);
     }
   }
-  std::sort(found_.begin(), found_.end(), worseFirst);
+  concludeScan(cloth);
   return most;
 }
 
 double Tearing::scan(const Cloth& cloth, const std::vector<int>& springs)
 {
-  found_.clear();
+  beginScan();
   double most = 0.0;
   for (int i : springs)
   {
     look(cloth, { i }, most);
   }
-  std::sort(found_.begin(), found_.end(), worseFirst);
+  concludeScan(cloth);
   return most;
+}
+
+void Tearing::beginScan()
+{
+  found_.clear();
+  patch_.moved();
+}
+
+void Tearing::concludeScan(const Cloth& cloth)
+{
+  std::sort(found_.begin(), found_.end(), worseFirst);
+  read_at_ = cloth.damage.tears;
 }
 
 std::vector<TearEvent> Tearing::tear(Cloth& cloth, std::vector<Grasp>& grasps,
@@ -296,7 +327,7 @@ std::vector<TearEvent> Tearing::tear(Cloth& cloth, std::vector<Grasp>& grasps,
     TearEvent event;
     event.spring = reading.spring;
     event.tension = tension(cloth, reading.spring);
-    if (tearSpring(cloth, grasps, reading.spring, blocked, event))
+    if (tearSpring(cloth, grasps, reading, blocked, event))
     {
       events.push_back(std::move(event));
     }
@@ -311,9 +342,10 @@ bool Tearing::touched(const Cloth& cloth, SpringId s) const
   return touched_[ends[0].index] == pass_ || touched_[ends[1].index] == pass_;
 }
 
-bool Tearing::tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s,
+bool Tearing::tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, const TearReading& reading,
                          const Blocked& blocked, TearEvent& event)
 {
+  const SpringId s = reading.spring;
   const double own = cloth.strain(s);
   const std::vector<Option> ways = options(cloth, s);
   bool held = ways.empty();  // a weak spring tears as sound cloth only where it has no way to go
@@ -337,12 +369,20 @@ bool Tearing::tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s,
     }
     held = held || resistanceAt(cloth, way.at, s) > 0.0;
   }
-  return held && tearSound(cloth, grasps, s, event);
+  if (!held)
+  {
+    return false;
+  }
+  // The first tear of a step finds the cloth as it was read.
+  const bool as_read = reading.kind == TearKind::BASIC && cloth.damage.tears == read_at_;
+  const double patch = as_read ? reading.strain : patch_.read(cloth, s, rules_.tear_radius);
+  return tearSound(cloth, grasps, s, patch, event);
 }
 
-bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, TearEvent& event)
+bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, double patch,
+                        TearEvent& event)
 {
-  event.strain = patch_.read(cloth, s, rules_.tear_radius);
+  event.strain = patch;
   event.threshold = strength(cloth, s) * rules_.tear_strain;
   if (event.strain <= event.threshold)
   {
@@ -504,6 +544,7 @@ void Tearing::release(Cloth& cloth, SpringId s, TearEvent& event)
   cloth.springs.release(s);
   cloth.damage.released[s.index] = 1;
   ++cloth.damage.tears;
+  patch_.follow(cloth, {});
   event.pieces = cloth.damage.pieces;
 }
 
@@ -535,6 +576,7 @@ void Tearing::conclude(Cloth& cloth, const Edit& edit, TearEvent& event)
   }
   event.triangles = edit.touched;
   event.pieces = cloth.damage.pieces;
+  patch_.follow(cloth, edit.touched);
 
   touched_.resize(cloth.mesh.particleCount(), 0);
   for (TriangleId t : edit.touched)
@@ -563,6 +605,7 @@ TearReading Tearing::worst(const Cloth& cloth) const
 TearReading Tearing::worst(const Cloth& cloth, const std::vector<SpringId>& springs) const
 {
   // A reading is at most the spring's own strain over its threshold: look in that order.
+  patch_.moved();
   std::vector<TearReading> bounds;
   for (SpringId s : springs)
   {
@@ -584,7 +627,7 @@ TearReading Tearing::worst(const Cloth& cloth, const std::vector<SpringId>& spri
     bounds.pop_back();
     if (candidate.kind == TearKind::BASIC)
     {
-      candidate.strain = patch_.read(cloth, candidate.spring, rules_.tear_radius);
+      candidate.strain = patch_.readStill(cloth, candidate.spring, rules_.tear_radius);
     }
     if (candidate.utilisation() > best.utilisation())
     {

@@ -87,10 +87,11 @@ private:
   void take(const Notes& notes, const std::vector<Links>& links);
 
   SpringBlocks blocks_;
-  std::uint64_t seen_ = 0;        ///< changes of the springs that blocks_ has followed
-  std::vector<int> recalled_;     ///< what blocks_ are to be made from; empty: from the springs
-  std::vector<int> changed_;      ///< springs, scratch
-  std::vector<Scratch> scratch_;  ///< by group
+  std::uint64_t seen_ = 0;            ///< changes of the springs that blocks_ has followed
+  std::vector<int> recalled_;         ///< what blocks_ are to be made from; empty: from the springs
+  std::vector<int> changed_;          ///< springs, scratch
+  std::vector<Scratch> scratch_;      ///< by group
+  std::vector<std::uint64_t> noted_;  ///< a bit for each spring, scratch
 };
 
 }  // namespace cloth

@@ -26,6 +26,12 @@ constexpr std::uint64_t bitOf(int bit)
   return std::uint64_t{ 1 } << bit;
 }
 
+/// @param bits not 0
+inline int lowestBit(std::uint64_t bits)
+{
+  return __builtin_ctzll(bits);
+}
+
 Links noLinks();
 
 /// Makes a lane one without a spring.

@@ -25,6 +25,9 @@ struct TearReading
   double utilisation() const { return strain / threshold; }
 };
 
+/// Of the springs that carry load [-]; NaN if one has it.
+double largestStrain(const Cloth& cloth);
+
 /// Reads strains and edits the mesh. Knows nothing of solvers: both serve. Not for two threads at a
 /// time, even to read.
 class Tearing
@@ -82,11 +85,14 @@ private:
   TearReading unread(const Cloth& cloth, SpringId s) const;
   TearReading read(const Cloth& cloth, SpringId s, double own) const;
   void look(const Cloth& cloth, SpringId s, double& most);
+  void beginScan();
+  void concludeScan(const Cloth& cloth);
 
   bool touched(const Cloth& cloth, SpringId s) const;
-  bool tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, const Blocked& blocked,
-                  TearEvent& event);
-  bool tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, TearEvent& event);
+  bool tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, const TearReading& reading,
+                  const Blocked& blocked, TearEvent& event);
+  bool tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, double patch,
+                 TearEvent& event);
   void tearAcross(Cloth& cloth, SpringId s, TearEvent& event);
   void tearAlong(Cloth& cloth, std::vector<Grasp>& grasps, ParticleId p, const TearPath& path,
                  TearEvent& event);
@@ -102,6 +108,7 @@ private:
   mutable PatchStrain patch_;  ///< reading needs scratch
   Pieces pieces_;
   std::vector<TearReading> found_;
+  std::uint64_t read_at_ = 0;      ///< tears of the cloth when found_ was read
   std::vector<unsigned> touched_;  ///< by particle: the number of the pass that touched it last
   unsigned pass_ = 0;
 };
