@@ -76,7 +76,7 @@ void Cloth::follow(const Edit& edit)
   }
   followStrengths(damage.strength, mesh, edit);
   rest.follow(mesh, edit);
-  springs.refresh(mesh, rest, material, edit.touched);
+  springs.refresh(mesh, rest, material, edit.near_springs);
   for (const auto& added : edit.springs)
   {
     if (damage.released[added.id.index])
@@ -85,21 +85,10 @@ void Cloth::follow(const Edit& edit)
     }
   }
 
-  const auto refreshParticle = [&](ParticleId p)
+  for (ParticleId p : edit.near_particles)
   {
     refreshInverseMass(p);
     damage.hinge[p.index] = mesh.fanCount(p) > 1 ? 1 : 0;
-  };
-  for (TriangleId t : edit.touched)
-  {
-    for (ParticleId p : mesh.triangle(t).particles)
-    {
-      refreshParticle(p);
-    }
-  }
-  for (const auto& added : edit.particles)
-  {
-    refreshParticle(added.parents[0]);
   }
   ++damage.tears;
 }
@@ -108,8 +97,8 @@ void Cloth::setMaterial(const Material& other)
 {
   material = other;
   rest.weigh(mesh, material.areal_density);
-  std::vector<TriangleId> all(mesh.triangleCount());
-  for (int i = 0; i < mesh.triangleCount(); ++i)
+  std::vector<SpringId> all(mesh.springCount());
+  for (int i = 0; i < mesh.springCount(); ++i)
   {
     all[i] = { i };
   }

@@ -2,6 +2,7 @@
 #include "cloth_tearing/core/mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cloth_tearing/core/mesh_sides.h"
 
@@ -246,6 +247,33 @@ bool Mesh::onBorder(ParticleId p) const
   return found;
 }
 
+/// Some dozen elements: looking through them all is the quickest way to have each once.
+template <class Id>
+void addOnce(std::vector<Id>& ids, Id id)
+{
+  if (std::find(ids.begin(), ids.end(), id) == ids.end())
+  {
+    ids.push_back(id);
+  }
+}
+
+Edit Mesh::withNeighbourhood(Edit edit) const
+{
+  for (TriangleId t : edit.touched)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      addOnce(edit.near_particles, triangle(t).particles[k]);
+      addOnce(edit.near_springs, triangle(t).springs[k]);
+    }
+  }
+  for (const auto& added : edit.particles)  // an original may have lost all touched triangles
+  {
+    addOnce(edit.near_particles, added.parents[0]);
+  }
+  return edit;
+}
+
 Edit Mesh::splitSpring(SpringId s)
 {
   const std::array<ParticleId, 2> ends = spring(s).particles;
@@ -300,7 +328,7 @@ Edit Mesh::splitSpring(SpringId s)
     edit.touched.push_back(t);
     edit.touched.push_back(a);
   }
-  return edit;
+  return withNeighbourhood(std::move(edit));
 }
 
 Edit Mesh::detachAlong(ParticleId p, SpringId s)
@@ -363,7 +391,7 @@ Edit Mesh::detachFan(ParticleId p, TriangleId t)
   edit.particles = { { copy, { p, p } } };
   moveTriangles(fan.triangles, p, copy);
   edit.touched = fan.triangles;
-  return edit;
+  return withNeighbourhood(std::move(edit));
 }
 
 Edit Mesh::separateFans(ParticleId p)
@@ -380,7 +408,7 @@ Edit Mesh::separateFans(ParticleId p)
     edit.particles.push_back(one.particles.front());
     edit.touched.insert(edit.touched.end(), one.touched.begin(), one.touched.end());
   }
-  return edit;
+  return withNeighbourhood(std::move(edit));
 }
 
 Edit Mesh::detach(ParticleId p, const std::vector<TriangleId>& moved,
@@ -408,7 +436,7 @@ Edit Mesh::detach(ParticleId p, const std::vector<TriangleId>& moved,
     }
   }
   moveTriangles(moved, p, copy);
-  return edit;
+  return withNeighbourhood(std::move(edit));
 }
 
 ParticleId Mesh::addParticle()

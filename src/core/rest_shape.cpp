@@ -203,18 +203,13 @@ void RestShape::follow(const Mesh& mesh, const Edit& edit)
 
   bend_length.resize(length.size(), 0.0);
   mass.resize(mesh.particleCount(), 0.0);
-  for (TriangleId t : edit.touched)
+  for (ParticleId p : edit.near_particles)
   {
-    const Triangle& triangle = mesh.triangle(t);
-    for (int k = 0; k < 3; ++k)
-    {
-      refreshMass(mesh, *this, triangle.particles[k]);
-      bend_length[triangle.springs[k].index] = flatBendLength(mesh, *this, triangle.springs[k]);
-    }
+    refreshMass(mesh, *this, p);
   }
-  for (const auto& added : edit.particles)  // an original may have lost all touched triangles
+  for (SpringId s : edit.near_springs)
   {
-    refreshMass(mesh, *this, added.parents[0]);
+    bend_length[s.index] = flatBendLength(mesh, *this, s);
   }
 }
 

@@ -75,17 +75,14 @@ double adjacentArea(const Mesh& mesh, const RestShape& rest, SpringId s)
 }
 
 void SpringTable::refresh(const Mesh& mesh, const RestShape& rest, const Material& material,
-                          const std::vector<TriangleId>& triangles)
+                          const std::vector<SpringId>& some)
 {
   structural.resize(mesh.springCount());
   bend_shear.resize(mesh.springCount());
-  for (TriangleId t : triangles)
+  for (SpringId s : some)
   {
-    for (SpringId s : mesh.triangle(t).springs)
-    {
-      refreshSpring(*this, mesh, rest, material, s);
-      changes.add(s);
-    }
+    refreshSpring(*this, mesh, rest, material, s);
+    changes.add(s);
   }
 }
 

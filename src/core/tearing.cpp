@@ -579,16 +579,9 @@ void Tearing::conclude(Cloth& cloth, const Edit& edit, TearEvent& event)
   patch_.follow(cloth, edit.touched);
 
   touched_.resize(cloth.mesh.particleCount(), 0);
-  for (TriangleId t : edit.touched)
+  for (ParticleId p : edit.near_particles)
   {
-    for (ParticleId p : cloth.mesh.triangle(t).particles)
-    {
-      touched_[p.index] = pass_;
-    }
-  }
-  for (const auto& added : edit.particles)
-  {
-    touched_[added.parents[0].index] = pass_;
+    touched_[p.index] = pass_;
   }
 }
 

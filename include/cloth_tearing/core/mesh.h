@@ -74,6 +74,10 @@ struct Edit
   std::vector<Added<TriangleId>> triangles;  ///< the other halves of those that were split
   std::vector<TriangleId> touched;  ///< corners, springs or neighbours changed, added ones too
 
+  // Each once, in the order in which the touched triangles name them.
+  std::vector<ParticleId> near_particles;  ///< their corners, and the originals of copies
+  std::vector<SpringId> near_springs;      ///< their sides
+
   /// The side of a halved triangle that was a side of the whole one.
   SpringId outerSide(const Triangle& half) const;
 };
@@ -187,6 +191,7 @@ private:
   void replaceTriangle(SpringId s, TriangleId from, TriangleId to);
   void moveTriangles(const std::vector<TriangleId>& moved, ParticleId from, ParticleId to);
   void buildSprings();
+  Edit withNeighbourhood(Edit edit) const;
   Edit detach(ParticleId p, const std::vector<TriangleId>& moved,
               const std::vector<SpringId>& cuts);
 

@@ -56,9 +56,9 @@ struct SpringTable
   std::vector<SpringLaw> bend_shear;
   ChangeLog changes;
 
-  /// Writes every spring of `triangles` again.
+  /// Writes these again.
   void refresh(const Mesh& mesh, const RestShape& rest, const Material& material,
-               const std::vector<TriangleId>& triangles);
+               const std::vector<SpringId>& some);
 
   /// The structural spring carries no load any more.
   void release(SpringId s);
