@@ -319,6 +319,77 @@ TEST(Floor, BearsClothThatComesToRestAndStaysThereBitForBit)
   }
 }
 
+/// What the floor does to a particle (Coulomb), written for one of them.
+void land(ParticleState& state, int i, const ContactParams& params, Real dt)
+{
+  const auto height = static_cast<Real>(params.floor_height + params.thickness);
+  const auto friction = static_cast<Real>(params.floor_friction);
+  const Vec3 v = state.velocity[i];
+  const Real z = state.position[i].z();
+  if (!(z < height) || !(state.inverse_mass[i] > 0))
+  {
+    return;
+  }
+  Vec3 change = Vec3::Zero();
+  if (v.z() < 0)
+  {
+    const Real slip = std::sqrt(v.x() * v.x() + v.y() * v.y());
+    const Real share = slip > 0 ? std::min(slip, friction * -v.z()) / slip : Real(0);
+    change = Vec3(0 - share * v.x(), 0 - share * v.y(), -v.z());
+  }
+  state.velocity[i] += change;
+  const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
+  state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + dt * change);
+  state.position[i].z() = std::max(
+      z, std::min(height, state.previous[i].z() + static_cast<Real>(params.push_speed) * dt));
+}
+
+TEST(Floor, TakesUpEachParticleAsIfItWereAloneWhereverItLiesInMemory)
+{
+  ContactParams params;
+  params.floor = true;
+  const double dt = 0.001;
+  std::mt19937_64 numbers(3);
+  const auto within = [&](double range)
+  { return static_cast<Real>(range * (static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0)); };
+  WorkerPool three(3);
+  for (int columns : { 3, 16, 61 })
+  {
+    Cloth cloth =
+        makeCloth(sheet(1.0, 1.0, columns, 37), { 1, 7 }, cotton(), RestShapeSource::IMPORTED, 0.0);
+    ParticleState& state = cloth.state;
+    state.previous.resize(state.size());
+    for (int i = 0; i < state.size(); ++i)
+    {
+      const bool still = i % 5 == 0;
+      state.previous[i] = Vec3(within(1.0), within(1.0), within(0.004));
+      state.velocity[i] = still ? Vec3(0, 0, within(1.0)) : Vec3(within(1), within(1), within(2));
+      state.position[i] = state.previous[i] + Vec3(static_cast<Real>(dt) * state.velocity[i]);
+    }
+    ParticleState expected = state;
+    std::vector<int> lain;
+    for (int i = 0; i < state.size(); ++i)
+    {
+      land(expected, i, params, static_cast<Real>(dt));
+      if (state.position[i].z() < 0.002F && state.inverse_mass[i] > 0)
+      {
+        lain.push_back(i);
+      }
+    }
+    for (WorkerPool* workers : { static_cast<WorkerPool*>(nullptr), &three })
+    {
+      Cloth taken_up = cloth;
+      SphereContact contact;
+      std::vector<Sphere> none;
+      contact.resolve(taken_up, none, params, dt, workers);
+      EXPECT_EQ(taken_up.state.position, expected.position) << columns;
+      EXPECT_EQ(taken_up.state.velocity, expected.velocity) << columns;
+      EXPECT_EQ(contact.pushed(), lain) << columns;
+      EXPECT_GT(lain.size(), 20u);
+    }
+  }
+}
+
 TEST(Balls, AreKinematicWithoutAMass)
 {
   SimulationParams params = vacuum();

@@ -6,7 +6,8 @@
 #include "kernels/forces.inl"
 #include "kernels/wind.inl"
 #include "kernels/particles.inl"
+#include "kernels/contact.inl"
 
-constexpr Set SET = { NAME,     sweepRuns, sweepRecords, pullRuns,  pullRecords,
-                      blowRuns, blowEnds,  accelerate,   addForce,  sides,
+constexpr Set SET = { NAME,     sweepRuns, sweepRecords, pullRuns,  pullRecords,   blowRuns,
+                      blowEnds, accelerate, addForce,    tileSides, particleSides, land,
                       calm,     predict,   finish,       above,     integrate };

@@ -121,6 +121,7 @@ Simulation Simulation::restored(const std::string& bytes) const
   refuseUnsound(next.spheres_.all());
 
   next.outer_.startOver();
+  next.contact_.startOver();
   next.makeWorkers();
   next.tearing_ = Tearing(next.params_.tearing);
   next.watchSprings();

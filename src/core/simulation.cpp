@@ -173,7 +173,8 @@ StepReport Simulation::step(StepObserver* observer)
   solver_->limitStrain(cloth_.state, cloth_.springs);  // woven cloth hardly stretches (2.1.1)
   enter(StepPhase::CONTACT);
   moveSpheres(spheres_.all(), params_.contact, params_.environment, dt);
-  contact_.resolve(cloth_, spheres_.all(), params_.contact, dt);  // spheres push the cloth (4.1)
+  contact_.resolve(cloth_, spheres_.all(), params_.contact, dt,
+                   workers_.get());  // spheres push the cloth (4.1)
 
   enter(StepPhase::DETECT);
   report.max_strain = scan();
@@ -212,36 +213,25 @@ StepReport Simulation::step(StepObserver* observer)
   }
   solver_->follow(cloth_.springs, cloth_.state.size());
   outer_.follow(cloth_);
+  contact_.follow(cloth_);
   cloth_.springs.changes.forget();
   return report;
 }
 
 double Simulation::scan()
 {
-  // A push may overstretch a slack spring in one step. Many pushed: looking at all costs less.
-  const std::vector<int>& pushed = contact_.pushed();
-  if (!params_.tearing.enabled || 8 * static_cast<int>(pushed.size()) > cloth_.state.size())
+  if (!params_.tearing.enabled)
   {
     return tearing_.scan(cloth_);
   }
+  const std::vector<int>& pushed = contact_.pushed();
   if (pushed.empty())
   {
     return tearing_.scan(cloth_, solver_->stretched());
   }
-  suspects_ = solver_->stretched();
-  for (int p : pushed)
-  {
-    cloth_.mesh.forEachTriangleAt({ p },
-                                  [this](TriangleId t)
-                                  {
-                                    for (SpringId s : cloth_.mesh.triangle(t).springs)
-                                    {
-                                      suspects_.push_back(s.index);
-                                    }
-                                  });
-  }
-  sortOnce(suspects_);
-  return tearing_.scan(cloth_, suspects_);
+  // A push may overstretch a slack spring in one step.
+  return tearing_.scan(cloth_, suspects_.find(cloth_, solver_->stretched(), pushed, watchedStrain(),
+                                              workers_.get()));
 }
 
 /// As many threads as pay off for this cloth.
@@ -263,7 +253,13 @@ void Simulation::makeSolver()
 
 void Simulation::watchSprings()
 {
-  solver_->watch(NEAR * std::min(tearing_.leastThreshold(cloth_), params_.runaway_strain));
+  solver_->watch(watchedStrain());
+}
+
+/// A spring that is stretched by more is looked at in the end of the step [-].
+double Simulation::watchedStrain() const
+{
+  return NEAR * std::min(tearing_.leastThreshold(cloth_), params_.runaway_strain);
 }
 
 void Simulation::remember()
@@ -471,6 +467,7 @@ void Simulation::startOver(const std::string& why)
   publish();
   cloth_ = untorn_;
   outer_.startOver();
+  contact_.startOver();
   makeSolver();
   watchSprings();
   stability_ = findStability();

@@ -26,6 +26,9 @@ constexpr Real INSIDE = Real(0.9);
 /// of the speed with which they met.
 constexpr Real LEAD = Real(0.5);
 
+/// Tiles that are put onto the floor in one go.
+constexpr int TILES = 64;
+
 /// Weights of the corners at the point of triangle (a, b, c) nearest to the origin
 /// (Ericson, Real-Time Collision Detection, 5.1.5).
 Vec3 nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -228,16 +231,24 @@ Real pushApart(ParticleState& state, const Triangle& triangle, Sphere& sphere,
   return push;
 }
 
-/// Parts a triangle from a sphere. @return how far it had to be pushed [m]
-Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
-                     const ContactParams& params, Real dt)
+/// What parting a triangle from a sphere came to.
+struct Parting
+{
+  bool pushed = false;
+  Real push = 0;        ///< [m]
+  bool inside = false;  ///< it was well inside
+};
+
+/// Parts a triangle from a sphere.
+Parting resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
+                        const ContactParams& params, Real dt)
 {
   const auto reach = static_cast<Real>(sphere.radius + params.thickness);
   const Corners corners = cornersOf(state, triangle, sphere);
   Contact contact;
   if (!firstTouch(corners, reach, contact))
   {
-    return 0;
+    return {};
   }
   Real gap = -reach;
   Real approach = 0;
@@ -248,12 +259,12 @@ Real resolveTriangle(ParticleState& state, const Triangle& triangle, Sphere& sph
   }
   if (gap >= 0)
   {
-    return 0;
+    return {};
   }
   // Out, but where it was inside from the start only as far as push_speed allows.
   const Real most = static_cast<Real>(params.push_speed) * dt + approach;
-  return pushApart(state, triangle, sphere, contact, std::max(Real(0), std::min(-gap, most)),
-                   params, dt);
+  return { true, pushApart(state, triangle, sphere, contact,
+                           std::max(Real(0), std::min(-gap, most)), params, dt) };
 }
 
 /// The side to which cloth goes that a sphere was placed into: that of the nearest triangle, or
@@ -280,9 +291,8 @@ Vec3 sideOut(const ParticleState& state, const Mesh& mesh, const std::vector<Tri
 
 /// Lifts a triangle out of a sphere that was placed into it, along sphere.out and at push_speed:
 /// pushed away from the centre it would be torn open in its plane.
-/// @return whether it was well inside
-bool liftTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
-                  const ContactParams& params, Real dt)
+Parting liftTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere,
+                     const ContactParams& params, Real dt)
 {
   const auto reach = static_cast<Real>(sphere.radius + params.thickness);
   const Corners corners = cornersOf(state, triangle, sphere);
@@ -299,13 +309,14 @@ bool liftTriangle(ParticleState& state, const Triangle& triangle, Sphere& sphere
   const Real squared = nearest.squaredNorm();
   if (squared >= reach * reach)
   {
-    return false;
+    return {};
   }
   const Real height = nearest.dot(contact.normal);
   const Real lift = std::sqrt(reach * reach - squared + height * height) - height;
   const Real most = static_cast<Real>(params.push_speed) * dt - contact.normal.dot(moved);
-  pushApart(state, triangle, sphere, contact, std::max(Real(0), std::min(lift, most)), params, dt);
-  return squared < INSIDE * INSIDE * reach * reach;
+  const Real push = pushApart(state, triangle, sphere, contact,
+                              std::max(Real(0), std::min(lift, most)), params, dt);
+  return { true, push, squared < INSIDE * INSIDE * reach * reach };
 }
 
 /// Goes its share of the way to where a stream has placed it.
@@ -411,115 +422,163 @@ void moveSpheres(std::vector<Sphere>& spheres, const ContactParams& params,
 }
 
 void SphereContact::resolve(Cloth& cloth, std::vector<Sphere>& spheres, const ContactParams& params,
-                            double dt)
+                            double dt, WorkerPool* workers)
 {
   impulse_.setZero();
+  for (int p : pushed_)
+  {
+    is_pushed_[p] = 0;
+  }
   pushed_.clear();
+  if (spheres.empty() && !params.floor)
+  {
+    return;
+  }
+  is_pushed_.resize(cloth.state.size(), 0);
+  pushed_.reserve(cloth.state.size());
   for (Sphere& sphere : spheres)
   {
     sphere.force.setZero();
-    resolveSphere(cloth, sphere, params, dt);
+    resolveSphere(cloth, sphere, params, dt, workers);
     impulse_ -= dt * sphere.force;
   }
   if (params.floor)
   {
-    impulse_ += resolveFloor(cloth, params, dt);
-  }
-}
-
-/// Triangles whose swept box overlaps the sphere's: not all three corners stay beyond the same
-/// side.
-void SphereContact::findNear(const Cloth& cloth, const Sphere& sphere, const ContactParams& params)
-{
-  const ParticleState& state = cloth.state;
-  const auto reach = static_cast<Real>(sphere.radius + params.thickness);
-  const Vec3 start = sphere.previous.cast<Real>();
-  const Vec3 end = sphere.center.cast<Real>();
-  const Vec3 low = start.cwiseMin(end).array() - reach;
-  const Vec3 high = start.cwiseMax(end).array() + reach;
-  near_.clear();
-  sides_.resize(state.size());
-  if (kernels::best().sides(state.previous.axes().data(), state.position.axes().data(), low.data(),
-                            high.data(), sides_.data(), state.size()) != 0)
-  {
-    return;
-  }
-  for (int i = 0; i < cloth.mesh.triangleCount(); ++i)
-  {
-    const auto& p = cloth.mesh.triangle({ i }).particles;
-    const int beyond = sides_[p[0].index] & sides_[p[1].index] & sides_[p[2].index];
-    if (beyond == 0 && !cloth.damage.at_rest[p[0].index])
-    {
-      near_.push_back({ i });
-      pushed_.insert(pushed_.end(), { p[0].index, p[1].index, p[2].index });
-    }
+    impulse_ += resolveFloor(cloth, params, dt, workers);
   }
 }
 
 /// @return what it does to the momentum of the cloth [N s]
-Vec3d SphereContact::resolveFloor(Cloth& cloth, const ContactParams& params, double dt)
+Vec3d SphereContact::resolveFloor(Cloth& cloth, const ContactParams& params, double dt,
+                                  WorkerPool* workers)
+{
+  const auto h = static_cast<Real>(dt);
+  kernels::Floor floor{};
+  floor.height = static_cast<Real>(params.floor_height + params.thickness);
+  floor.friction = static_cast<Real>(params.floor_friction);
+  floor.push = static_cast<Real>(params.push_speed) * h;  // for cloth that was below it
+  floor.dt = h;
+  ParticleState& state = cloth.state;
+  change_.resize(state.size());
+  landed_.resize(TriangleTiles::tilesFor(state.size()));
+  const auto land = [&](int begin, int end, const Real* inverse_mass)
+  { landTiles(state, floor, begin, end, inverse_mass); };
+  const int whole = state.size() / kernels::TILE;
+  shareStretches(
+      workers, whole,
+      [&](int begin, int end)
+      { land(begin, end, state.inverse_mass.data() + begin * kernels::TILE); },
+      TILES);
+  std::array<Real, kernels::TILE> rest{};
+  std::copy(state.inverse_mass.begin() + whole * kernels::TILE, state.inverse_mass.end(),
+            rest.begin());
+  land(whole, static_cast<int>(landed_.size()), rest.data());
+  return impulseOfFloor(state);
+}
+
+void SphereContact::landTiles(ParticleState& state, const kernels::Floor& floor, int begin, int end,
+                              const Real* inverse_mass)
+{
+  float* position[3];
+  float* velocity[3];
+  float* change[3];
+  const float* start[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    position[k] = state.position.axis(k) + begin * kernels::TILE;
+    velocity[k] = state.velocity.axis(k) + begin * kernels::TILE;
+    change[k] = change_.axis(k) + begin * kernels::TILE;
+    start[k] = state.previous.axis(k) + begin * kernels::TILE;
+  }
+  kernels::best().land(position, velocity, start, inverse_mass, floor, change,
+                       landed_.data() + begin, end - begin);
+}
+
+Vec3d SphereContact::impulseOfFloor(const ParticleState& state)
 {
   Vec3d impulse = Vec3d::Zero();
-  const auto h = static_cast<Real>(dt);
-  const auto height = static_cast<Real>(params.floor_height + params.thickness);
-  const auto friction = static_cast<Real>(params.floor_friction);
-  const Real push = static_cast<Real>(params.push_speed) * h;  // for cloth that was below it
-  ParticleState& state = cloth.state;
-  for (int i = 0; i < state.size(); ++i)
+  for (std::size_t tile = 0; tile < landed_.size(); ++tile)
   {
-    const Real z = state.position[i].z();
-    if (z < height && state.inverse_mass[i] > 0)
+    for (int lane = 0; lane < kernels::TILE && landed_[tile] >> lane != 0; ++lane)
     {
-      pushed_.push_back(i);
-      const Vec3 change = velocityChange(state.velocity[i], Vec3::UnitZ(), friction);
-      state.velocity[i] += change;
-      impulse += change.cast<double>() / state.inverse_mass[i];
-      // What rubs off the speed rubs off the way too; what sticks has not moved at all.
-      const bool sticks = state.velocity[i].x() == 0 && state.velocity[i].y() == 0;
-      state.position[i] = sticks ? state.previous[i] : Vec3(state.position[i] + h * change);
-      state.position[i].z() = std::max(z, std::min(height, state.previous[i].z() + push));
+      if ((landed_[tile] >> lane & 1U) != 0)
+      {
+        const int i = static_cast<int>(tile) * kernels::TILE + lane;
+        notePushed(i);
+        impulse += change_[i].cast<double>() / state.inverse_mass[i];
+      }
     }
   }
   return impulse;
 }
 
-void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params,
-                                  double dt)
+void SphereContact::notePushed(int particle)
 {
-  ParticleState& state = cloth.state;
+  if (!is_pushed_[particle])
+  {
+    is_pushed_[particle] = 1;
+    pushed_.push_back(particle);
+  }
+}
+
+/// Calls part(triangle) for those that the sphere may touch.
+/// @return the largest push, and whether any of them was well inside
+template <class Part>
+auto SphereContact::partAll(const Mesh& mesh, const Sphere& sphere, const Part& part)
+{
+  Parting all;
+  for (TriangleId id : near_.all())
+  {
+    const Triangle& triangle = mesh.triangle(id);
+    if (!near_.mayTouch(triangle))
+    {
+      continue;
+    }
+    const Parting one = part(triangle);
+    all.push = std::max(all.push, one.push);
+    all.inside = all.inside || one.inside;
+    if (one.pushed)
+    {
+      for (ParticleId p : triangle.particles)
+      {
+        notePushed(p.index);
+        near_.forget(p.index);
+      }
+      near_.moved(sphere.center.cast<Real>());
+    }
+  }
+  return all;
+}
+
+void SphereContact::resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params,
+                                  double dt, WorkerPool* workers)
+{
+  const auto h = static_cast<Real>(dt);
   const auto reach = static_cast<Real>(sphere.radius + params.thickness);
-  findNear(cloth, sphere, params);
+  near_.find(cloth, sphere.previous.cast<Real>(), sphere.center.cast<Real>(), reach, workers);
 
   if (sphere.fresh)
   {
-    sphere.out = sideOut(state, cloth.mesh, near_, sphere, reach).cast<double>();
+    sphere.out = sideOut(cloth.state, cloth.mesh, near_.all(), sphere, reach).cast<double>();
     sphere.fresh = false;
   }
   if (!sphere.out.isZero(0.0))
   {
-    bool inside = false;
-    for (TriangleId id : near_)
-    {
-      inside =
-          liftTriangle(state, cloth.mesh.triangle(id), sphere, params, static_cast<Real>(dt)) ||
-          inside;
-    }
-    if (inside)
+    const auto lift = [&](const Triangle& triangle)
+    { return liftTriangle(cloth.state, triangle, sphere, params, h); };
+    if (partAll(cloth.mesh, sphere, lift).inside)
     {
       return;
     }
     sphere.out.setZero();  // the cloth is outside now
   }
 
+  const auto part = [&](const Triangle& triangle)
+  { return resolveTriangle(cloth.state, triangle, sphere, params, h); };
   Real push = reach;
   for (int pass = 0; pass < MAX_PASSES && push > DEEP_PUSH * reach; ++pass)
   {
-    push = 0;
-    for (TriangleId id : near_)
-    {
-      push = std::max(push, resolveTriangle(state, cloth.mesh.triangle(id), sphere, params,
-                                            static_cast<Real>(dt)));
-    }
+    push = partAll(cloth.mesh, sphere, part).push;
   }
 }
 

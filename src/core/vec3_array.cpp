@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cloth_tearing/core/kernels.h"
+
 namespace cloth
 {
 
@@ -66,14 +68,15 @@ bool Vec3Array::operator==(const Vec3Array& other) const
 }
 
 /// Makes room for so many, twice as much as before if it takes more: torn cloth grows in small
-/// steps.
+/// steps. Whole tiles may be read of each axis.
 void Vec3Array::grow(std::size_t size)
 {
   if (size <= pitch_)
   {
     return;
   }
-  const std::size_t pitch = std::max(size, 2 * size_);
+  const std::size_t tiles = (std::max(size, 2 * size_) + kernels::TILE - 1) / kernels::TILE;
+  const std::size_t pitch = tiles * kernels::TILE;
   std::vector<Real> data(3 * pitch, Real(0));
   for (std::size_t k = 0; k < 3; ++k)
   {

@@ -117,6 +117,28 @@ struct Air
   float drag;                ///< pressure per normal speed [N s/m^3]
 };
 
+/// So many particles, neighbours in memory, make a tile.
+constexpr int TILE = LANES;
+
+/// A ball's way through a step.
+struct Ball
+{
+  float low[3];    ///< of the box round all of it, its reach included [m]
+  float high[3];   ///< [m]
+  float start[3];  ///< its centre when the step begins [m]
+  float end[3];    ///< and when it ends [m]
+  float reach;     ///< [m]
+};
+
+/// The floor, and how it takes up what comes to lie on it.
+struct Floor
+{
+  float height;    ///< [m]
+  float friction;  ///< [-]
+  float push;      ///< how far it lifts in this step what was below it [m]
+  float dt;        ///< [s]
+};
+
 /// The loops for one instruction set.
 struct Set
 {
@@ -148,11 +170,22 @@ struct Set
   /// acceleration += force inverse_mass for `count` numbers of one axis.
   void (*add_force)(float* acceleration, const float* force, const float* inverse_mass, int count);
 
-  /// Of each particle on which sides of a box it has been all the step, from `start` to `position`:
-  /// a bit for each of the six.
-  /// @return sides on which they all have
-  unsigned (*sides)(const float* const start[3], const float* const position[3], const float low[3],
-                    const float high[3], unsigned char* sides, int count);
+  /// Of each tile on which sides of the ball's box all its particles stay, from `start` to
+  /// `position`: a bit for each of the six.
+  void (*tile_sides)(const float* const start[3], const float* const position[3], const Ball& ball,
+                     unsigned char* sides, int tiles);
+
+  /// Of each particle of a tile the same in the lowest six bits. Above them, a bit for each of 26
+  /// directions: it stays further that way from the ball's centre than its reach.
+  void (*particle_sides)(const float* const start[3], const float* const position[3],
+                         const Ball& ball, unsigned* sides);
+
+  /// Puts particles below the floor onto it, but for those of inverse mass 0, and rubs.
+  /// @param[out] change of their velocities [m/s]
+  /// @param[out] landed by tile: a bit for each of its particles that was put there
+  void (*land)(float* const position[3], float* const velocity[3], const float* const start[3],
+               const float* inverse_mass, const Floor& floor, float* const change[3],
+               unsigned* landed, int tiles);
 
   /// Whether all particles have places that are numbers and squared speeds of at most `limit`.
   bool (*calm)(const float* const position[3], const float* const velocity[3], float limit,

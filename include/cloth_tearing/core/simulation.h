@@ -18,6 +18,7 @@
 #include "cloth_tearing/core/loose_pieces.h"
 #include "cloth_tearing/core/material.h"
 #include "cloth_tearing/core/pin_commands.h"
+#include "cloth_tearing/core/pushed_springs.h"
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/rest_shape.h"
 #include "cloth_tearing/core/solver.h"
@@ -337,6 +338,7 @@ private:
   void makeWorkers();
   void makeSolver();
   void watchSprings();
+  double watchedStrain() const;
   double scan();
   void remember();
   void undo();
@@ -366,7 +368,7 @@ private:
   SphereSet spheres_;
   Vec3Array acceleration_;  ///< scratch of a step [m/s^2]
   OuterForces outer_;
-  std::vector<int> suspects_;  ///< springs, scratch of scan()
+  PushedSprings suspects_;  ///< scratch of scan()
   Undo undo_;
   Stability stability_;
   EventLog<TearEvent> log_;

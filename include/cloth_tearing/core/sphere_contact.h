@@ -5,6 +5,7 @@
 
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/material.h"
+#include "cloth_tearing/core/near_triangles.h"
 #include "cloth_tearing/core/obstacles.h"
 
 namespace cloth
@@ -26,23 +27,40 @@ class SphereContact
 public:
   /// Corrects positions and velocities at the end of a step of `dt` [s], and the velocities of
   /// dynamic spheres.
-  void resolve(Cloth& cloth, std::vector<Sphere>& spheres, const ContactParams& params, double dt);
+  /// @param workers share the looking for what is near; nullptr: nobody does
+  void resolve(Cloth& cloth, std::vector<Sphere>& spheres, const ContactParams& params, double dt,
+               WorkerPool* workers = nullptr);
+
+  /// Takes over what a tear has changed. To be told after each step; resolve() would find it out at
+  /// greater cost.
+  void follow(const Cloth& cloth) { near_.follow(cloth); }
+
+  /// Another cloth comes next.
+  void startOver() { near_ = NearTriangles(); }
 
   /// What spheres and floor did to the momentum of the cloth in the last resolve() [N s].
   const Vec3d& impulse() const { return impulse_; }
 
-  /// Particles that the last resolve() may have moved, maybe more than once.
+  /// Particles that the last resolve() may have moved, each once.
   const std::vector<int>& pushed() const { return pushed_; }
 
 private:
-  void findNear(const Cloth& cloth, const Sphere& sphere, const ContactParams& params);
-  Vec3d resolveFloor(Cloth& cloth, const ContactParams& params, double dt);
-  void resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params, double dt);
+  void resolveSphere(Cloth& cloth, Sphere& sphere, const ContactParams& params, double dt,
+                     WorkerPool* workers);
+  template <class Part>
+  auto partAll(const Mesh& mesh, const Sphere& sphere, const Part& part);
+  Vec3d resolveFloor(Cloth& cloth, const ContactParams& params, double dt, WorkerPool* workers);
+  void landTiles(ParticleState& state, const kernels::Floor& floor, int begin, int end,
+                 const Real* inverse_mass);
+  Vec3d impulseOfFloor(const ParticleState& state);
+  void notePushed(int particle);
 
   Vec3d impulse_ = Vec3d::Zero();
-  std::vector<TriangleId> near_;      ///< scratch: triangles that the sphere may touch in this step
-  std::vector<unsigned char> sides_;  ///< scratch: of its box on which each particle stays
+  NearTriangles near_;
   std::vector<int> pushed_;
+  std::vector<char> is_pushed_;   ///< by particle
+  Vec3Array change_;              ///< of velocities by the floor, by particle, scratch [m/s]
+  std::vector<unsigned> landed_;  ///< by tile: a bit for each particle on the floor, scratch
 };
 
 /// Whether `point` lies inside a sphere or below the floor.

@@ -74,18 +74,18 @@ void share(WorkerPool* workers, int count, const Work& work)
   }
 }
 
-/// Calls work(begin, end) for stretches that together are 0 to `count`.
+/// Calls work(begin, end) for stretches that together are 0 to `count`, each of `length` at most if
+/// they are shared.
 template <class Work>
-void shareStretches(WorkerPool* workers, int count, const Work& work)
+void shareStretches(WorkerPool* workers, int count, const Work& work, int length = 1024)
 {
-  constexpr int LENGTH = 1024;
   if (workers == nullptr)
   {
     work(0, count);
     return;
   }
-  share(workers, (count + LENGTH - 1) / LENGTH,
-        [&](int i) { work(i * LENGTH, std::min(count, (i + 1) * LENGTH)); });
+  share(workers, (count + length - 1) / length,
+        [&](int i) { work(i * length, std::min(count, (i + 1) * length)); });
 }
 
 /// How many threads pay off for a cloth of so many particles.

@@ -43,34 +43,6 @@ void addForce(float* __restrict acceleration, const float* __restrict force,
   }
 }
 
-unsigned sides(const float* const start[3], const float* const position[3], const float low[3],
-               const float high[3], unsigned char* __restrict sides, int count)
-{
-  for (int i = 0; i < count; ++i)
-  {
-    sides[i] = 0;
-  }
-  for (int k = 0; k < 3; ++k)
-  {
-    const float* __restrict from = start[k];
-    const float* __restrict to = position[k];
-    const int below = 1 << (2 * k);
-    const int above = 2 << (2 * k);
-    for (int i = 0; i < count; ++i)
-    {
-      const int is_below = (from[i] < low[k]) & (to[i] < low[k]) ? below : 0;
-      const int is_above = (from[i] > high[k]) & (to[i] > high[k]) ? above : 0;
-      sides[i] = static_cast<unsigned char>(sides[i] | is_below | is_above);
-    }
-  }
-  unsigned all = 0xff;
-  for (int i = 0; i < count; ++i)
-  {
-    all &= sides[i];
-  }
-  return all;
-}
-
 bool calm(const float* const position[3], const float* const velocity[3], float limit, int count)
 {
   int wild = 0;
