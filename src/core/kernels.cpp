@@ -1,6 +1,7 @@
 // Chooses the loops that this processor runs fastest.
 #include "cloth_tearing/core/kernels.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -61,22 +62,35 @@ std::size_t available(const Set* const*& sets)
 namespace
 {
 
+const char* wish()
+{
+  return std::getenv("CLOTH_TEARING_SIMD");
+}
+
+/// @return nullptr if this processor has none of that name
+const Set* find(const char* name)
+{
+  const Set* const* sets = nullptr;
+  const std::size_t count = available(sets);
+  const Set* const* const found = std::find_if(
+      sets, sets + count, [name](const Set* set) { return std::strcmp(set->name, name) == 0; });
+  return found != sets + count ? *found : nullptr;
+}
+
 const Set& choose()
 {
   const Set* const* sets = nullptr;
   const std::size_t count = available(sets);
-  const char* wanted = std::getenv("CLOTH_TEARING_SIMD");
-  for (std::size_t i = 0; wanted != nullptr && i < count; ++i)
-  {
-    if (std::strcmp(sets[i]->name, wanted) == 0)
-    {
-      return *sets[i];
-    }
-  }
-  return *sets[count - 1];
+  const Set* const wanted = wish() != nullptr ? find(wish()) : nullptr;
+  return wanted != nullptr ? *wanted : *sets[count - 1];
 }
 
 }  // namespace
+
+const char* ignoredWish()
+{
+  return wish() != nullptr && find(wish()) == nullptr ? wish() : nullptr;
+}
 
 const Set& best()
 {

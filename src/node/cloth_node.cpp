@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <random>
+#include <thread>
+
+#include "cloth_tearing/core/kernels.h"
 
 namespace cloth_tearing
 {
@@ -60,6 +63,19 @@ std::uint64_t newLife()
   return static_cast<std::uint64_t>(source()) << 32 | source();
 }
 
+void tellHowItIsComputed(const cloth::Simulation& simulation)
+{
+  if (const char* wish = cloth::kernels::ignoredWish())
+  {
+    ROS_WARN_STREAM("CLOTH_TEARING_SIMD is \""
+                    << wish << "\", which this processor does not have: ignored");
+  }
+  ROS_INFO_STREAM(simulation.cloth().state.size()
+                  << " particles, " << simulation.threads() << " of "
+                  << std::thread::hardware_concurrency() << " threads, "
+                  << cloth::kernels::best().name << " instructions");
+}
+
 std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params,
                                                   const Placement& placement)
 {
@@ -77,6 +93,7 @@ std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params,
   {
     ROS_WARN_STREAM(note);
   }
+  tellHowItIsComputed(*simulation);
   return simulation;
 }
 

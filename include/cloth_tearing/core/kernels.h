@@ -217,5 +217,8 @@ const Set& best();
 /// All that this processor runs, the plainest first.
 std::size_t available(const Set* const*& sets);
 
+/// What CLOTH_TEARING_SIMD names, if this processor has no such loops; else nullptr.
+const char* ignoredWish();
+
 }  // namespace kernels
 }  // namespace cloth
