@@ -8,26 +8,19 @@ namespace cloth
 namespace
 {
 
-using kernels::LANES;
+/// From so many loose triangles a particle on, it pays to put the particles into records.
+constexpr double MANY = 0.25;
 
-/// Triangles in no run, as many at a time as there are lanes.
-void blowOnLoose(const Cloth& cloth, const std::vector<int>& triangles, const kernels::Air& air)
+/// The particles from `first` on.
+kernels::Air from(int first, kernels::Air air)
 {
-  for (std::size_t first = 0; first < triangles.size(); first += LANES)
+  for (int k = 0; k < 3; ++k)
   {
-    kernels::TriangleEnds ends{};
-    kernels::Areas areas{};
-    for (std::size_t i = first; i < triangles.size() && i < first + LANES; ++i)
-    {
-      const auto& p = cloth.mesh.triangle({ triangles[i] }).particles;
-      const std::size_t lane = i - first;
-      ends.a[lane] = p[0].index;
-      ends.b[lane] = p[1].index;
-      ends.c[lane] = p[2].index;
-      areas.area[lane] = static_cast<float>(cloth.rest.area[triangles[i]]);
-    }
-    kernels::best().blow_ends(air, ends, areas);
+    air.position[k] += first;
+    air.velocity[k] += first;
+    air.force[k] += first;
   }
+  return air;
 }
 
 }  // namespace
@@ -47,7 +40,7 @@ void OuterForces::accelerate(const Cloth& cloth, const Mesh& untorn, const Envir
       triangles_ = TriangleRuns(untorn);
     }
     follow(cloth);
-    blow(cloth, environment);
+    blow(cloth, environment, workers);
   }
   shareStretches(workers, state.size(),
                  [&](int begin, int end)
@@ -74,11 +67,11 @@ void OuterForces::follow(const Cloth& cloth)
 }
 
 /// What the wind does to each particle.
-void OuterForces::blow(const Cloth& cloth, const Environment& environment)
+void OuterForces::blow(const Cloth& cloth, const Environment& environment, WorkerPool* workers)
 {
   const ParticleState& state = cloth.state;
   force_.resize(state.size());
-  force_.setZero();
+  records_.resize(triangles_.groups().size());
   kernels::Air air{};
   air.drag = static_cast<float>(environment.wind_drag);
   for (int k = 0; k < 3; ++k)
@@ -88,9 +81,64 @@ void OuterForces::blow(const Cloth& cloth, const Environment& environment)
     air.force[k] = force_.axis(k);
     air.wind[k] = static_cast<float>(environment.wind[k]);
   }
-  kernels::best().blow_runs(air, triangles_.runs().data(), triangles_.areas().data(),
-                            static_cast<int>(triangles_.runs().size()));
-  blowOnLoose(cloth, triangles_.loose(), air);
+  const auto& phases = triangles_.phases();
+  for (int phase = 0; phase < 3; ++phase)
+  {
+    const int first = phases[phase];
+    share(workers, phases[phase + 1] - first,
+          [&](int i)
+          {
+            if (phase == 0)
+            {
+              const auto [begin, end] = triangles_.own(i, state.size());
+              force_.setZero(begin, end);
+            }
+            blowOn(first + i, cloth, air);
+          });
+  }
+}
+
+void OuterForces::blowOn(int group, const Cloth& cloth, const kernels::Air& air)
+{
+  const kernels::Set& loops = kernels::best();
+  triangles_.arrange(group, cloth.mesh, cloth.rest);
+  const TriangleGroup& triangles = triangles_.groups()[group];
+  loops.blow_runs(air, triangles_.runs().data() + triangles.first_run,
+                  triangles_.areas().data() + triangles.first_run,
+                  triangles.end_run - triangles.first_run);
+  if (static_cast<double>(triangles.loose.size()) > MANY * (triangles.high - triangles.low))
+  {
+    blowOnRecords(group, air);
+  }
+  else
+  {
+    loops.blow_ends(from(triangles.low, air), triangles.ends.data(), triangles.areas.data(),
+                    static_cast<int>(triangles.ends.size()));
+  }
+}
+
+/// On loose triangles.
+void OuterForces::blowOnRecords(int group, const kernels::Air& air)
+{
+  const kernels::Set& loops = kernels::best();
+  const TriangleGroup& triangles = triangles_.groups()[group];
+  const int count = triangles.high - triangles.low;
+  const kernels::Air there = from(triangles.low, air);
+  Records& records = records_[group];
+  records.position.resize(count);
+  records.velocity.resize(count);
+  records.force.resize(count);
+  loops.pack(there.position, records.position.data(), count);
+  loops.pack(there.velocity, records.velocity.data(), count);
+  loops.pack(there.force, records.force.data(), count);
+  const kernels::AirRecords in_records{ records.position.data(),
+                                        records.velocity.data(),
+                                        records.force.data(),
+                                        { air.wind[0], air.wind[1], air.wind[2] },
+                                        air.drag };
+  loops.blow_records(in_records, triangles.ends.data(), triangles.areas.data(),
+                     static_cast<int>(triangles.ends.size()));
+  loops.unpack(records.force.data(), there.force, count);
 }
 
 void OuterForces::addWind(const Cloth& cloth, Vec3Array& acceleration, int begin, int end) const

@@ -2,7 +2,9 @@
 #include "cloth_tearing/core/triangle_runs.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace cloth
 {
@@ -13,6 +15,9 @@ using kernels::LANES;
 
 /// A run with fewer triangles than this takes longer than they do alone.
 constexpr int SHORTEST_RUN = 4;
+
+/// The fewest particles that make a stretch: a thread should have something to do.
+constexpr int SHORTEST_STRETCH = 512;
 
 /// A triangle by where its second and third corner lie from its first.
 struct Reach
@@ -41,9 +46,67 @@ std::vector<Reach> reachesOf(const Mesh& mesh)
   return reaches;
 }
 
+std::array<int, 2> range(const Triangle& triangle)
+{
+  const auto& p = triangle.particles;
+  const auto [low, high] = std::minmax({ p[0].index, p[1].index, p[2].index });
+  return { low, high };
+}
+
+/// How far apart the particles of most triangles, and of runs of them, lie.
+int reachOfMost(const Mesh& mesh)
+{
+  std::vector<int> reaches;
+  reaches.reserve(mesh.triangleCount());
+  for (int i = 0; i < mesh.triangleCount(); ++i)
+  {
+    const auto [low, high] = range(mesh.triangle({ i }));
+    reaches.push_back(high - low);
+  }
+  const auto most = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() * 9 / 10);
+  std::nth_element(reaches.begin(), most, reaches.end());
+  return *most + LANES;
+}
+
 }  // namespace
 
 TriangleRuns::TriangleRuns(const Mesh& untorn)
+{
+  makeGroups(untorn);
+  makeRuns(untorn);
+  sortRuns();
+}
+
+void TriangleRuns::makeGroups(const Mesh& untorn)
+{
+  stretch_ = std::max(SHORTEST_STRETCH, 2 * reachOfMost(untorn));
+  const int stretches = (untorn.particleCount() + stretch_ - 1) / stretch_;
+  const int first_phase = (stretches + 1) / 2;
+  phases_ = { 0, first_phase, stretches, stretches + 1 };
+  groups_.resize(stretches + 1);
+}
+
+/// Stretches 0, 2, 4, ... are first, then 1, 3, 5, ...
+int TriangleRuns::groupOf(int lowest, int highest) const
+{
+  const int stretch = lowest / stretch_;
+  const bool reaches_further = highest >= (stretch + 2) * stretch_ || stretch >= phases_[2];
+  return reaches_further ? phases_[2] : stretch / 2 + (stretch % 2 == 0 ? 0 : phases_[1]);
+}
+
+int TriangleRuns::groupOf(const Triangle& triangle) const
+{
+  const auto [low, high] = range(triangle);
+  return groupOf(low, high);
+}
+
+std::array<int, 2> TriangleRuns::own(int group, int particles) const
+{
+  const bool last = group + 1 == phases_[1];
+  return { 2 * group * stretch_, last ? particles : 2 * (group + 1) * stretch_ };
+}
+
+void TriangleRuns::makeRuns(const Mesh& untorn)
 {
   lanes_.assign(untorn.triangleCount(), -1);
   const std::vector<Reach> reaches = reachesOf(untorn);
@@ -70,6 +133,35 @@ TriangleRuns::TriangleRuns(const Mesh& untorn)
   areas_.resize(runs_.size());
 }
 
+/// Group by group.
+void TriangleRuns::sortRuns()
+{
+  const auto group_of = [this](int run)
+  {
+    const kernels::TriangleRun& r = runs_[run];
+    return groupOf(std::min({ r.a, r.b, r.c }), std::max({ r.a, r.b, r.c }) + LANES - 1);
+  };
+  std::vector<int> order(runs_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return group_of(a) < group_of(b); });
+  std::vector<kernels::TriangleRun> sorted;
+  std::vector<int> place(runs_.size());
+  for (int run : order)
+  {
+    TriangleGroup& group = groups_[group_of(run)];
+    place[run] = static_cast<int>(sorted.size());
+    group.first_run = group.end_run == 0 ? place[run] : group.first_run;
+    group.end_run = place[run] + 1;
+    sorted.push_back(runs_[run]);
+  }
+  runs_ = std::move(sorted);
+  for (int& lane : lanes_)
+  {
+    lane = lane < 0 ? lane : LANES * place[lane / LANES] + lane % LANES;
+  }
+}
+
 void TriangleRuns::follow(const Mesh& mesh, const RestShape& rest, const SpringTable& springs)
 {
   if (seen_ == springs.changes.count())
@@ -83,6 +175,7 @@ void TriangleRuns::follow(const Mesh& mesh, const RestShape& rest, const SpringT
   else
   {
     lanes_.resize(mesh.triangleCount(), -1);
+    loose_group_.resize(mesh.triangleCount(), -1);
     for (int spring : changed_)
     {
       for (TriangleId t : mesh.spring({ spring }).triangles)
@@ -100,8 +193,13 @@ void TriangleRuns::follow(const Mesh& mesh, const RestShape& rest, const SpringT
 void TriangleRuns::followAll(const Mesh& mesh, const RestShape& rest)
 {
   areas_.assign(runs_.size(), {});
-  loose_.clear();
+  for (TriangleGroup& group : groups_)
+  {
+    group.loose.clear();
+    group.stale = true;
+  }
   lanes_.resize(mesh.triangleCount(), -1);
+  loose_group_.assign(mesh.triangleCount(), -1);
   for (int i = 0; i < mesh.triangleCount(); ++i)
   {
     follow(mesh, rest, i);
@@ -116,16 +214,76 @@ void TriangleRuns::follow(const Mesh& mesh, const RestShape& rest, int triangle)
   {
     areas_[lane / LANES].area[lane % LANES] = in_run ? static_cast<float>(rest.area[triangle]) : 0;
   }
-  const auto place = std::lower_bound(loose_.begin(), loose_.end(), triangle);
-  const bool is_loose = place != loose_.end() && *place == triangle;
-  if (in_run && is_loose)
+  removeLoose(triangle);
+  if (!in_run)
   {
-    loose_.erase(place);
+    addLoose(mesh, triangle);
   }
-  else if (!in_run && !is_loose)
+}
+
+void TriangleRuns::removeLoose(int triangle)
+{
+  const int group = loose_group_[triangle];
+  if (group >= 0)
   {
-    loose_.insert(place, triangle);
+    std::vector<int>& loose = groups_[group].loose;
+    loose.erase(std::lower_bound(loose.begin(), loose.end(), triangle));
+    groups_[group].stale = true;
+    loose_group_[triangle] = -1;
   }
+}
+
+void TriangleRuns::addLoose(const Mesh& mesh, int triangle)
+{
+  const int group = groupOf(mesh.triangle({ triangle }));
+  std::vector<int>& loose = groups_[group].loose;
+  loose.insert(std::lower_bound(loose.begin(), loose.end(), triangle), triangle);
+  groups_[group].stale = true;
+  loose_group_[triangle] = group;
+}
+
+void TriangleRuns::arrange(int group, const Mesh& mesh, const RestShape& rest)
+{
+  TriangleGroup& g = groups_[group];
+  if (!g.stale)
+  {
+    return;
+  }
+  g.stale = false;
+  g.low = g.loose.empty() ? 0 : mesh.particleCount();
+  g.high = 0;
+  for (int triangle : g.loose)
+  {
+    const auto [low, high] = range(mesh.triangle({ triangle }));
+    g.low = std::min(g.low, low);
+    g.high = std::max(g.high, high + 1);
+  }
+  const std::size_t blocks = (g.loose.size() + LANES - 1) / LANES;
+  g.ends.assign(blocks, {});
+  g.areas.assign(blocks, {});
+  for (std::size_t i = 0; i < g.loose.size(); ++i)
+  {
+    // Neighbours in the list share particles: they are apart, so that nobody waits for what he has
+    // just stored.
+    const std::size_t block = i % blocks;
+    const std::size_t lane = i / blocks;
+    const auto& p = mesh.triangle({ g.loose[i] }).particles;
+    g.ends[block].a[lane] = p[0].index - g.low;
+    g.ends[block].b[lane] = p[1].index - g.low;
+    g.ends[block].c[lane] = p[2].index - g.low;
+    g.areas[block].area[lane] = static_cast<float>(rest.area[g.loose[i]]);
+  }
+}
+
+std::vector<int> TriangleRuns::loose() const
+{
+  std::vector<int> all;
+  for (const TriangleGroup& group : groups_)
+  {
+    all.insert(all.end(), group.loose.begin(), group.loose.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 bool TriangleRuns::fits(const Triangle& triangle, int lane) const

@@ -57,6 +57,14 @@ void Vec3Array::setZero()
   std::fill(data_.begin(), data_.end(), Real(0));
 }
 
+void Vec3Array::setZero(std::size_t begin, std::size_t end)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    std::fill(axis(k) + begin, axis(k) + end, Real(0));
+  }
+}
+
 std::vector<Vec3> Vec3Array::toVectors() const
 {
   return { begin(), end() };

@@ -18,7 +18,7 @@ public:
   /// air against it (Provot 1995). Held particles get it too: it does not move them, but whoever
   /// holds them feels it.
   /// @param untorn what the cloth was torn from, the same each time until startOver()
-  /// @param workers share the work but for the wind's on triangles; nullptr: nobody does
+  /// @param workers share the work; nullptr: nobody does
   void accelerate(const Cloth& cloth, const Mesh& untorn, const Environment& environment,
                   Vec3Array& acceleration, WorkerPool* workers = nullptr);
 
@@ -30,11 +30,22 @@ public:
   void startOver() { *this = OuterForces(); }
 
 private:
-  void blow(const Cloth& cloth, const Environment& environment);
+  void blow(const Cloth& cloth, const Environment& environment, WorkerPool* workers);
+  void blowOn(int group, const Cloth& cloth, const kernels::Air& air);
+  void blowOnRecords(int group, const kernels::Air& air);
   void addWind(const Cloth& cloth, Vec3Array& acceleration, int begin, int end) const;
 
+  /// Of the particles of a group's loose triangles.
+  struct Records
+  {
+    std::vector<kernels::Record> position;
+    std::vector<kernels::Record> velocity;
+    std::vector<kernels::Record> force;
+  };
+
   TriangleRuns triangles_;
-  Vec3Array force_;  ///< of the wind, by particle [N]
+  std::vector<Records> records_;  ///< by group, scratch
+  Vec3Array force_;               ///< of the wind, by particle [N]
 };
 
 }  // namespace cloth

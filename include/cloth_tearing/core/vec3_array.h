@@ -81,6 +81,7 @@ public:
   /// Takes elements `begin` to `end` - 1 from another array that has them.
   void copy(const Vec3Array& from, std::size_t begin, std::size_t end);
   void setZero();
+  void setZero(std::size_t begin, std::size_t end);  ///< elements `begin` to `end` - 1
 
   std::vector<Vec3> toVectors() const;
 
