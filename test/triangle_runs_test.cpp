@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/simulation.h"
@@ -126,6 +127,88 @@ TEST_P(Triangles, LieWhereTheyWouldIfTheTornClothHadBeenLookedAtOnce)
     for (int lane = 0; lane < LANES; ++lane)
     {
       EXPECT_EQ(step_by_step.areas()[i].area[lane], at_once.areas()[i].area[lane]) << i;
+    }
+  }
+}
+
+/// The particles that a group's runs and loose triangles have, as those who go through it see them.
+std::set<int> touchedBy(const TriangleRuns& runs, const TriangleGroup& group)
+{
+  std::set<int> touched;
+  for (int i = group.first_run; i < group.end_run; ++i)
+  {
+    for (int lane = 0; lane < LANES; ++lane)
+    {
+      const kernels::TriangleRun& run = runs.runs()[i];
+      touched.insert({ run.a + lane, run.b + lane, run.c + lane });
+    }
+  }
+  for (const kernels::TriangleEnds& ends : group.ends)
+  {
+    for (int lane = 0; lane < LANES; ++lane)
+    {
+      touched.insert(
+          { group.low + ends.a[lane], group.low + ends.b[lane], group.low + ends.c[lane] });
+    }
+  }
+  return touched;
+}
+
+TEST_P(Triangles, OfAPhaseTouchNoParticleOfAnotherOfItsGroups)
+{
+  Cloth cloth = makeCloth(upright(sheet(1.0, 1.0, 70, 70, GetParam())), {}, vacuum().material,
+                          RestShapeSource::IMPORTED, 0.0);
+  TriangleRuns runs(cloth.mesh);
+  for (int spring = 100; spring < 14000; spring += 900)
+  {
+    cloth.follow(cloth.mesh.splitSpring({ spring }));
+  }
+  runs.follow(cloth.mesh, cloth.rest, cloth.springs);
+  const int particles = cloth.mesh.particleCount();
+  int triangles = 0;
+  std::vector<int> owned(particles, 0);
+  EXPECT_GE(runs.phases()[1], 3) << "or there is nothing to share";
+  for (int phase = 0; phase < 3; ++phase)
+  {
+    std::set<int> others;
+    for (int g = runs.phases()[phase]; g < runs.phases()[phase + 1]; ++g)
+    {
+      runs.arrange(g, cloth.mesh, cloth.rest);
+      const TriangleGroup& group = runs.groups()[g];
+      triangles += static_cast<int>(group.loose.size());
+      const std::set<int> touched = touchedBy(runs, group);
+      for (int p : touched)
+      {
+        EXPECT_TRUE(others.insert(p).second) << "particle " << p << ", phase " << phase;
+      }
+      if (phase == 0)
+      {
+        const auto [begin, end] = runs.own(g, particles);
+        EXPECT_TRUE(touched.empty() || (*touched.begin() >= begin && *touched.rbegin() < end));
+        std::for_each(owned.begin() + begin, owned.begin() + end, [](int& count) { ++count; });
+      }
+    }
+  }
+  EXPECT_EQ(owned, std::vector<int>(particles, 1)) << "each particle is one group's own";
+  EXPECT_EQ(triangles, static_cast<int>(runs.loose().size()));
+  EXPECT_LT(runs.groups()[runs.phases()[2]].loose.size(), 200u) << "few reach far";
+}
+
+TEST_P(Triangles, FeelTheSameWindWithThreads)
+{
+  const Simulation simulation = torn(GetParam());
+  const Cloth& cloth = simulation.cloth();
+  Vec3Array alone;
+  OuterForces().accelerate(cloth, cloth.mesh, simulation.params().environment, alone);
+  for (int threads : { 2, 3, 7 })
+  {
+    WorkerPool workers(threads);
+    Vec3Array shared;
+    OuterForces forces;
+    for (int again = 0; again < 20; ++again)
+    {
+      forces.accelerate(cloth, cloth.mesh, simulation.params().environment, shared, &workers);
+      ASSERT_EQ(shared, alone) << threads << " threads";
     }
   }
 }
