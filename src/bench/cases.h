@@ -51,7 +51,4 @@ void registerTears();
 /// profile and after_tears/...: a thesis' cloth that was torn 500 times.
 void registerProfile();
 
-/// snapshot/SIDE: the copy of the cloth that leaves the core.
-void registerSnapshot();
-
 }  // namespace cloth_bench

@@ -1,8 +1,10 @@
-// Times what becomes of a snapshot before it is published: markers and surface messages.
+// Times the copy of the cloth that leaves the core, and what becomes of it before it is published:
+// markers and surface messages.
 #include <benchmark/benchmark.h>
 
 #include <string>
 
+#include "cloth_tearing/core/snapshot_taker.h"
 #include "cloth_tearing/node/cloth_markers.h"
 #include "cloth_tearing/node/conversions.h"
 
@@ -28,12 +30,18 @@ void open(cloth::Cloth& cloth, int spacing)
   }
 }
 
-/// The sheet of the node's defaults with `side` particles along each edge.
-cloth::Snapshot sheet(int side, int spacing)
+/// The node's defaults with `side` particles along each edge.
+NodeParams paramsOf(int side)
 {
   NodeParams params;
   params.rectangle.columns = side;
   params.rectangle.rows = side;
+  return params;
+}
+
+cloth::Snapshot sheet(int side, int spacing)
+{
+  const NodeParams params = paramsOf(side);
   const PlacedModel placed = placedModel(params);
   cloth::Cloth cloth = cloth::makeCloth(placed.model, placed.pinned, params.simulation.material,
                                         cloth::RestShapeSource::IMPORTED, 0.0);
@@ -41,6 +49,23 @@ cloth::Snapshot sheet(int side, int spacing)
   cloth::Snapshot snapshot;
   snapshot.surface = makeSurface(cloth);
   return snapshot;
+}
+
+/// @param torn as in the frame after a tear
+void takeSnapshot(benchmark::State& state, bool torn)
+{
+  const NodeParams params = paramsOf(static_cast<int>(state.range(0)));
+  const PlacedModel placed = placedModel(params);
+  const cloth::Simulation simulation(placed.model, placed.pinned, params.simulation);
+  cloth::SnapshotTaker taker;
+  cloth::Snapshot snapshot;
+  taker.take(simulation, snapshot);
+  for (auto _ : state)
+  {
+    taker = torn ? cloth::SnapshotTaker() : taker;
+    taker.take(simulation, snapshot);
+    benchmark::DoNotOptimize(snapshot.surface.positions.data());
+  }
 }
 
 void drawMarkers(benchmark::State& state, Coloring coloring)
@@ -115,6 +140,14 @@ void sizes(benchmark::internal::Benchmark* bench)
 
 }  // namespace
 
+BENCHMARK_CAPTURE(takeSnapshot, quiet, false)
+    ->ArgName("side")
+    ->Arg(100)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(takeSnapshot, torn, true)
+    ->ArgName("side")
+    ->Arg(100)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(drawMarkers, texture, Coloring::TEXTURE)->Apply(sizes);
 BENCHMARK_CAPTURE(drawMarkers, strain, Coloring::STRAIN)->Apply(sizes);
 BENCHMARK_CAPTURE(drawMarkers, plain, Coloring::PLAIN)->Apply(sizes);
