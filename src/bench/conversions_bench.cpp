@@ -64,7 +64,7 @@ void takeSnapshot(benchmark::State& state, bool torn)
   {
     taker = torn ? cloth::SnapshotTaker() : taker;
     taker.take(simulation, snapshot);
-    benchmark::DoNotOptimize(snapshot.surface.positions.data());
+    benchmark::DoNotOptimize(snapshot.surface.position.data());
   }
 }
 
