@@ -16,13 +16,15 @@ struct Cloths
   int resolution;
   RectanglePattern pattern;
   SolverKind solver;
+  bool lines = false;
+  double time_step = 0.001;  // [s]
 };
 
 std::string clothName(const ::testing::TestParamInfo<Cloths>& info)
 {
   static const char* const PATTERNS[] = { "OneDiagonal", "Alternating", "Irregular" };
   return PATTERNS[static_cast<int>(info.param.pattern)] + nameOf(info.param.solver) +
-         std::to_string(info.param.resolution);
+         std::to_string(info.param.resolution) + (info.param.lines ? "Lines" : "");
 }
 
 Setting settingOf(const Cloths& cloth)
@@ -31,6 +33,8 @@ Setting settingOf(const Cloths& cloth)
   setting.resolution = cloth.resolution;
   setting.pattern = cloth.pattern;
   setting.solver = cloth.solver;
+  setting.lines = cloth.lines;
+  setting.time_step = cloth.time_step;
   return setting;
 }
 
@@ -50,7 +54,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Cloths{ 30, RectanglePattern::ONE_DIAGONAL, SolverKind::FORCE_SPRINGS },
                       Cloths{ 30, RectanglePattern::ALTERNATING, SolverKind::FORCE_SPRINGS },
                       Cloths{ 30, RectanglePattern::IRREGULAR, SolverKind::FORCE_SPRINGS },
-                      Cloths{ 40, RectanglePattern::ALTERNATING, SolverKind::FORCE_SPRINGS }),
+                      Cloths{ 40, RectanglePattern::ALTERNATING, SolverKind::FORCE_SPRINGS },
+                      Cloths{ 30, RectanglePattern::ONE_DIAGONAL, SolverKind::XPBD, true, 0.002 },
+                      Cloths{ 30, RectanglePattern::ALTERNATING, SolverKind::XPBD, true, 0.002 },
+                      Cloths{ 30, RectanglePattern::IRREGULAR, SolverKind::XPBD, true, 0.002 }),
     clothName);
 
 TEST_P(Experiments, EndAsInTheThesis)

@@ -134,6 +134,7 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.solver.time_step, compiled.solver.time_step);
   EXPECT_EQ(shipped.solver.max_strain, compiled.solver.max_strain);
   EXPECT_EQ(shipped.solver.max_substeps, compiled.solver.max_substeps);
+  EXPECT_EQ(shipped.solver.lines, compiled.solver.lines);
   EXPECT_EQ(shipped.max_grasp_distance, compiled.max_grasp_distance);
   EXPECT_EQ(shipped.grasp_force_filter, compiled.grasp_force_filter);
   EXPECT_EQ(shipped.max_gripper_speed, compiled.max_gripper_speed);

@@ -27,10 +27,33 @@ struct SceneMoment
 namespace determinism
 {
 
-inline SimulationParams parameters(SolverKind solver)
+/// A solver, or XPBD with lines.
+struct Choice
+{
+  SolverKind kind;
+  bool lines;
+
+  Choice(SolverKind solver, bool in_lines = false)  // NOLINT(google-explicit-constructor): a kind
+      : kind(solver), lines(in_lines)               // says it all
+  {
+  }
+
+  std::string name() const
+  {
+    return kind == SolverKind::FORCE_SPRINGS ? "force_springs" : lines ? "xpbd_lines" : "xpbd";
+  }
+};
+
+inline std::vector<Choice> allSolvers()
+{
+  return { { SolverKind::XPBD }, { SolverKind::FORCE_SPRINGS }, { SolverKind::XPBD, true } };
+}
+
+inline SimulationParams parameters(const Choice& solver)
 {
   SimulationParams params;
-  params.solver.kind = solver;
+  params.solver.kind = solver.kind;
+  params.solver.lines = solver.lines;
   params.solver.max_substeps = 64;
   params.material.areal_density = 0.15;
   params.material.stiffness = 60.0;
@@ -58,7 +81,7 @@ inline Simulation hung(const RectangleParams& rectangle_params, const Simulation
   return { model, top, params };
 }
 
-inline Simulation curtain(SolverKind solver)
+inline Simulation curtain(const Choice& solver)
 {
   RectangleParams rectangle_params;
   rectangle_params.columns = 10;
@@ -68,7 +91,7 @@ inline Simulation curtain(SolverKind solver)
 }
 
 /// So large that many threads share a step.
-inline Simulation largeCurtain(SolverKind solver, RectanglePattern pattern, int threads)
+inline Simulation largeCurtain(const Choice& solver, RectanglePattern pattern, int threads)
 {
   RectangleParams rectangle_params;
   rectangle_params.width = 4.0;
@@ -160,17 +183,12 @@ inline void play(const std::string& name, Simulation simulation, int steps,
   }
 }
 
-inline std::string nameOf(SolverKind solver)
-{
-  return solver == SolverKind::XPBD ? "xpbd" : "force_springs";
-}
-
 }  // namespace determinism
 
 /// So many threads share a step of the large scenes, if they may.
 constexpr int MOST_SCENE_THREADS = 7;
 
-/// Plays all small scenes with both solvers, each from the start.
+/// Plays all small scenes with all solvers, each from the start.
 inline std::vector<SceneMoment> playScenes()
 {
   struct Scene
@@ -179,7 +197,7 @@ inline std::vector<SceneMoment> playScenes()
     void (*begin)(Simulation&);
   };
   std::vector<SceneMoment> moments;
-  for (SolverKind solver : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })
+  for (const determinism::Choice& solver : determinism::allSolvers())
   {
     for (const Scene& scene :
          { Scene{ "drape", determinism::drape }, Scene{ "drag", determinism::drag },
@@ -187,25 +205,24 @@ inline std::vector<SceneMoment> playScenes()
     {
       Simulation simulation = determinism::curtain(solver);
       scene.begin(simulation);
-      determinism::play(determinism::nameOf(solver) + " " + scene.name, simulation, 500, moments);
+      determinism::play(solver.name() + " " + scene.name, simulation, 500, moments);
     }
   }
   return moments;
 }
 
-/// Plays a large scene with both solvers, on cloth of rows and on irregular cloth.
+/// Plays a large scene with all solvers, on cloth of rows and on irregular cloth.
 inline std::vector<SceneMoment> playLargeScenes(int threads)
 {
   std::vector<SceneMoment> moments;
-  for (SolverKind solver : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })
+  for (const determinism::Choice& solver : determinism::allSolvers())
   {
     for (RectanglePattern pattern : { RectanglePattern::ALTERNATING, RectanglePattern::IRREGULAR })
     {
       const std::string mesh = pattern == RectanglePattern::IRREGULAR ? "irregular" : "rows";
       Simulation simulation = determinism::largeCurtain(solver, pattern, threads);
       determinism::storm(simulation);
-      determinism::play("large " + determinism::nameOf(solver) + " " + mesh, simulation, 120,
-                        moments);
+      determinism::play("large " + solver.name() + " " + mesh, simulation, 120, moments);
     }
   }
   return moments;

@@ -70,7 +70,7 @@ bool runsHere(const std::string& loops)
 
 TEST(Determinism, GivesTheSameBitsInEveryRun)
 {
-  EXPECT_EQ(smallScenes().size(), 30u);
+  EXPECT_EQ(smallScenes().size(), 45u);
   EXPECT_EQ(linesOf(playScenes()), smallScenes());
 }
 

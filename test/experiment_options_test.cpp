@@ -34,7 +34,7 @@ TEST(Options, RefuseNonsenseUnderTheOptionsName)
     { { "--resolution", "30,," }, { "--resolution", "\"\"" } },
     { { "--resolution", "thirty" }, { "--resolution", "\"thirty\"", "number" } },
     { { "--seed", "-1" }, { "--seed", "-1" } },
-    { { "--solver", "pbd" }, { "--solver", "\"pbd\"", "xpbd", "force_springs" } },
+    { { "--solver", "pbd" }, { "--solver", "\"pbd\"", "xpbd", "xpbd_lines", "force_springs" } },
     { { "--sead", "1" }, { "--sead" } },
     { { "--output" }, { "--output", "needs a value" } },
     { { "balls", "map" }, { "one experiment", "balls", "map" } },

@@ -242,6 +242,17 @@ TEST(ParamsLoader, RefusesToFollowTheClockThatItPublishes)
             std::string::npos);
 }
 
+TEST(ParamsLoader, RefusesLinesOfForceSprings)
+{
+  XmlRpcValue tree;
+  tree["lines"] = true;
+  EXPECT_EQ(joined(loadParams(tree).problems), "");
+  EXPECT_TRUE(loadParams(tree).params.simulation.solver.lines);
+  tree["solver"] = "force_springs";
+  EXPECT_NE(joined(loadParams(tree).problems).find("lines is true, must be false"),
+            std::string::npos);
+}
+
 TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
 {
   const double infinity = std::numeric_limits<double>::infinity();
@@ -264,6 +275,7 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "", "max_states", 0, "max_states is 0" },
     { "", "max_state_memory", 0.5, "max_state_memory [MB] is 0.5" },
     { "", "solver", 1, "must be one of force_springs, xpbd" },
+    { "", "lines", 1, "must be true or false" },
     { "", "time_step", "1e-3", "write 1.0e-3" },
     { "", "time_step", 0.5, "time_step [s] is 0.5" },
     { "", "time_step", infinity, "must be finite" },

@@ -27,7 +27,7 @@ constexpr int AFTER = 150;   // steps in which what goes on from it is compared
 constexpr std::size_t CHECKSUM_SIZE = 8;
 
 /// Wind, a floor, a streamed sphere, two thrown ones and a gripper that drags, all at once.
-Simulation everythingAtOnce(SolverKind solver)
+Simulation everythingAtOnce(const determinism::Choice& solver)
 {
   Simulation simulation = determinism::curtain(solver);
   determinism::drape(simulation);
@@ -79,7 +79,7 @@ std::string reasonAgainst(const Simulation& simulation, const std::string& bytes
   }
 }
 
-class SavedState : public ::testing::TestWithParam<SolverKind>
+class SavedState : public ::testing::TestWithParam<determinism::Choice>
 {
 };
 
@@ -229,10 +229,9 @@ TEST_P(SavedState, GoesOnTearingWhereOnlyAGripperPulls)
   EXPECT_GT(original.revision(), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothSolvers, SavedState,
-                         ::testing::Values(SolverKind::XPBD, SolverKind::FORCE_SPRINGS),
-                         [](const ::testing::TestParamInfo<SolverKind>& solver)
-                         { return solver.param == SolverKind::XPBD ? "Xpbd" : "ForceSprings"; });
+INSTANTIATE_TEST_SUITE_P(AllSolvers, SavedState, ::testing::ValuesIn(determinism::allSolvers()),
+                         [](const ::testing::TestParamInfo<determinism::Choice>& solver)
+                         { return solver.param.name(); });
 
 TEST(OneSavedState, KnowsPiecesAtRest)
 {
@@ -520,7 +519,7 @@ TEST(SavedStateBytes, AreRefusedWithOneByteChanged)
 }
 
 /// A small torn cloth with everything that a state may hold.
-Simulation smallAndTorn(SolverKind solver)
+Simulation smallAndTorn(const determinism::Choice& solver)
 {
   const ClothModel model = sheet(0.3, 0.3, 4, 4);
   SimulationParams params = determinism::parameters(solver);
@@ -575,7 +574,7 @@ void bearChanges(const Simulation& simulation, const std::string& state,
   EXPECT_GT(refused, static_cast<int>(state.size() / 10)) << "most of a mesh cannot be changed";
 }
 
-class SavedStateBytesOf : public ::testing::TestWithParam<SolverKind>
+class SavedStateBytesOf : public ::testing::TestWithParam<determinism::Choice>
 {
 };
 
@@ -618,10 +617,10 @@ TEST(RestoredState, IsSteppedByAsManyThreadsAsItsOwnClothWants)
   EXPECT_EQ(large.restored(small.save()).threads(), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothSolvers, SavedStateBytesOf,
-                         ::testing::Values(SolverKind::XPBD, SolverKind::FORCE_SPRINGS),
-                         [](const ::testing::TestParamInfo<SolverKind>& solver)
-                         { return solver.param == SolverKind::XPBD ? "Xpbd" : "ForceSprings"; });
+INSTANTIATE_TEST_SUITE_P(AllSolvers, SavedStateBytesOf,
+                         ::testing::ValuesIn(determinism::allSolvers()),
+                         [](const ::testing::TestParamInfo<determinism::Choice>& solver)
+                         { return solver.param.name(); });
 
 // -- nothing is forgotten -------------------------------------------------------------------------
 

@@ -12,6 +12,8 @@ std::string nameOf(EngineKind kind)
   {
     case EngineKind::XPBD:
       return "xpbd";
+    case EngineKind::XPBD_LINES:
+      return "xpbd_lines";
     case EngineKind::FORCE_SPRINGS:
       return "force_springs";
     case EngineKind::NAIVE:
@@ -26,7 +28,8 @@ std::string nameOf(EngineKind kind)
 
 bool isPeer(EngineKind kind)
 {
-  return kind != EngineKind::XPBD && kind != EngineKind::FORCE_SPRINGS;
+  return kind == EngineKind::NAIVE || kind == EngineKind::NAIVE_SCATTERED ||
+         kind == EngineKind::BULLET;
 }
 
 bool isHere(EngineKind kind)
@@ -45,6 +48,7 @@ std::unique_ptr<Engine> makeEngine(EngineKind kind, const Scene& scene, double t
   switch (kind)
   {
     case EngineKind::XPBD:
+    case EngineKind::XPBD_LINES:
     case EngineKind::FORCE_SPRINGS:
       return makeProjectEngine(kind, scene, time_step, threads);
     case EngineKind::NAIVE:

@@ -13,6 +13,7 @@ namespace cloth_bench
 enum class EngineKind
 {
   XPBD,             ///< this project's default solver, tearing on
+  XPBD_LINES,       ///< the same, whole lines of springs at once
   FORCE_SPRINGS,    ///< this project's force springs, tearing on
   NAIVE,            ///< objects and pointers, see naive_cloth.h
   NAIVE_SCATTERED,  ///< the same, its objects scattered in memory as long use leaves them

@@ -62,7 +62,9 @@ cloth::SimulationParams projectParams(EngineKind kind, const Scene& scene, doubl
                                       int threads)
 {
   cloth::SimulationParams params;
-  params.solver.kind = kind == EngineKind::XPBD ? SolverKind::XPBD : SolverKind::FORCE_SPRINGS;
+  params.solver.kind =
+      kind == EngineKind::FORCE_SPRINGS ? SolverKind::FORCE_SPRINGS : SolverKind::XPBD;
+  params.solver.lines = kind == EngineKind::XPBD_LINES;
   params.solver.time_step = time_step;
   params.material = scene.material;
   params.environment = scene.environment;

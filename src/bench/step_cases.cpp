@@ -165,7 +165,8 @@ void checkBits(benchmark::State& state, int side, const std::vector<int>& thread
 
 void registerSteps(const Options& options)
 {
-  constexpr EngineKind OWN[] = { EngineKind::XPBD, EngineKind::FORCE_SPRINGS };
+  constexpr EngineKind OWN[] = { EngineKind::XPBD, EngineKind::XPBD_LINES,
+                                 EngineKind::FORCE_SPRINGS };
   constexpr EngineKind PEERS[] = { EngineKind::NAIVE, EngineKind::NAIVE_SCATTERED,
                                    EngineKind::BULLET };
   for (int side : { 30, 100, 300, 1000 })
@@ -196,8 +197,8 @@ void registerSteps(const Options& options)
       }
     }
   }
-  for (EngineKind engine :
-       { EngineKind::XPBD, EngineKind::FORCE_SPRINGS, EngineKind::NAIVE, EngineKind::BULLET })
+  for (EngineKind engine : { EngineKind::XPBD, EngineKind::XPBD_LINES, EngineKind::FORCE_SPRINGS,
+                             EngineKind::NAIVE, EngineKind::BULLET })
   {
     if (!options.garment.empty() && isHere(engine))
     {

@@ -195,6 +195,8 @@ void registerTears()
     add(EngineKind::XPBD, MeshKind::GRID, side, 1);
     add(EngineKind::FORCE_SPRINGS, MeshKind::GRID, side, 1);
     add(EngineKind::XPBD, MeshKind::IRREGULAR, side, 1);
+    add(EngineKind::XPBD_LINES, MeshKind::GRID, side, 1);
+    add(EngineKind::XPBD_LINES, MeshKind::IRREGULAR, side, 1);
   }
 }
 

@@ -13,16 +13,37 @@ constexpr int WORD = 64;  ///< bits
 
 }  // namespace
 
-void BlockSolver::arrange(const SpringTable& springs, int particles)
+void BlockSolver::arrange(const SpringTable& springs, const ParticleState& state)
 {
   if (!arranged())
   {
-    blocks_ = recalled_.empty() ? SpringBlocks(springs, particles)
-                                : SpringBlocks(springs, particles, recalled_);
-    recalled_.clear();
-    seen_ = springs.changes.count();
-    scratch_.resize(groups().size());
+    begin(springs, state);
   }
+  keepUp(springs, state.size());
+}
+
+/// Blocks that were saved without lines had all springs.
+void BlockSolver::begin(const SpringTable& springs, const ParticleState& state)
+{
+  const int particles = state.size();
+  if (!recalled_.lines.empty())
+  {
+    lines_ = SpringLines(springs, particles, recalled_.lines);
+  }
+  else if (in_lines_ && recalled_.blocks.empty())
+  {
+    lines_ = SpringLines(springs, state.previous);
+  }
+  blocks_ = recalled_.blocks.empty() ? SpringBlocks(springs, particles, lines_)
+                                     : SpringBlocks(springs, particles, recalled_.blocks, lines_);
+  recalled_ = {};
+  seen_ = springs.changes.count();
+  scratch_.resize(groups().size());
+  line_notes_.resize(lines_.ladders().size());
+}
+
+void BlockSolver::keepUp(const SpringTable& springs, int particles)
+{
   if (seen_ != springs.changes.count())
   {
     if (!springs.changes.since(seen_, changed_))
@@ -30,11 +51,13 @@ void BlockSolver::arrange(const SpringTable& springs, int particles)
       changed_.resize(springs.structural.size());
       std::iota(changed_.begin(), changed_.end(), 0);
     }
-    blocks_.follow(springs, particles, changed_);
+    lines_.follow(springs, changed_);
+    blocks_.follow(springs, particles, changed_, lines_);
     seen_ = springs.changes.count();
   }
   if (blocks_.watched() != watched_)
   {
+    lines_.watch(springs, watched_);
     blocks_.watch(springs, watched_);
   }
 }
@@ -43,20 +66,28 @@ void BlockSolver::follow(const SpringTable& springs, int particles)
 {
   if (arranged())
   {
-    arrange(springs, particles);
+    keepUp(springs, particles);
   }
 }
 
 SolverMemory BlockSolver::memory() const
 {
+  if (!arranged())
+  {
+    return recalled_;
+  }
   SolverMemory memory;
-  memory.blocks = arranged() ? blocks_.toNumbers() : recalled_;
+  memory.blocks = blocks_.toNumbers();
+  if (in_lines_)
+  {
+    memory.lines = lines_.toNumbers();
+  }
   return memory;
 }
 
 void BlockSolver::recall(const SolverMemory& memory)
 {
-  recalled_ = memory.blocks;
+  recalled_ = memory;
 }
 
 /// The last takes those that tears have added as well.
@@ -78,6 +109,10 @@ void BlockSolver::collectNotes(std::size_t springs)
   {
     take(scratch_[g].run_notes, groups()[g].run_links);
     take(scratch_[g].loose_notes, groups()[g].loose_links);
+  }
+  for (std::size_t i = 0; i < line_notes_.size(); ++i)
+  {
+    take(line_notes_[i], lines_.ladders()[i].links);
   }
   for (std::size_t word = 0; word < noted_.size(); ++word)
   {

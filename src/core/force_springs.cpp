@@ -29,7 +29,7 @@ void ForceSprings::advance(ParticleState& state, const SpringTable& springs,
                            const Vec3Array& acceleration, double dt)
 {
   const auto h = static_cast<Real>(dt / substeps_);
-  arrange(springs, state.size());
+  arrange(springs, state);
   force_.resize(state.size());
   held_.resize(state.size());
   held_.setZero();

@@ -3,12 +3,14 @@
 #include "kernels/registers.inl"
 #include "kernels/records.inl"
 #include "kernels/sweep.inl"
+#include "kernels/lines.inl"
 #include "kernels/forces.inl"
 #include "kernels/wind.inl"
 #include "kernels/particles.inl"
 #include "kernels/contact.inl"
 
-constexpr Set SET = { NAME,     sweepRuns, sweepRecords, pullRuns,      pullRecords, blowRuns,
-                      blowEnds, blowRecords, pack,       unpack,        accelerate,  addForce,
-                      tileSides, particleSides, land,    calm,          predict,     finish,
-                      above,    integrate };
+constexpr Set SET = { NAME,        sweepRuns,  sweepRecords,  sweepLadder, packNodes,
+                      unpackNodes, pullRuns,   pullRecords,   blowRuns,    blowEnds,
+                      blowRecords, pack,       unpack,        accelerate,  addForce,
+                      tileSides,   particleSides, land,       calm,        predict,
+                      finish,      above,      integrate };

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr char MAGIC[] = { 'C', 'L', 'O', 'T', 'H', '\r', '\n', '\x1a' };  // no text file
-constexpr std::uint32_t STATE_FORMAT = 4;
+constexpr std::uint32_t STATE_FORMAT = 5;
 constexpr std::size_t CHECKSUM_SIZE = sizeof(std::uint64_t);
 
 /// What the state does not know of itself.

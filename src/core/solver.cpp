@@ -14,6 +14,11 @@ std::vector<std::string> problems(const SolverParams& params)
   check(found, "time_step [s]", params.time_step, Range::between(1e-5, 0.02));
   check(found, "max_strain [-]", params.max_strain, Range::between(1e-3, 10.0));
   check(found, "max_substeps", params.max_substeps, Range::between(1, 64));
+  if (params.lines && params.kind != SolverKind::XPBD)
+  {
+    found.emplace_back(
+        "lines is true, must be false with the force springs: only XPBD solves lines");
+  }
   return found;
 }
 
@@ -23,7 +28,7 @@ std::unique_ptr<Solver> makeSolver(const SolverParams& params)
   {
     return std::make_unique<ForceSprings>(params);
   }
-  return std::make_unique<XpbdSolver>();
+  return std::make_unique<XpbdSolver>(params.lines);
 }
 
 }  // namespace cloth

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "cloth_tearing/core/number_reader.h"
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/spring_blocks.h"
 #include "cloth_tearing/core/spring_lanes.h"
@@ -41,57 +42,10 @@ std::vector<int> SpringBlocks::toNumbers() const
   return numbers;
 }
 
-namespace
-{
-
-/// Reads numbers that may come from anywhere.
-class NumberReader
-{
-public:
-  explicit NumberReader(const std::vector<int>& numbers) : numbers_(numbers) {}
-
-  /// @throws Refusal if it is not from `least` to `most`, or there is none
-  int next(int least, int most)
-  {
-    if (at_ >= numbers_.size())
-    {
-      throw Refusal("solver/blocks end too early");
-    }
-    const int number = numbers_[at_];
-    if (number < least || number > most)
-    {
-      throw Refusal("solver/blocks " + std::to_string(at_) + " is " + std::to_string(number) +
-                    ", must be " + std::to_string(least) + " to " + std::to_string(most));
-    }
-    ++at_;
-    return number;
-  }
-
-  /// A count of things that take so many numbers each.
-  int count(int size)
-  {
-    return next(0, static_cast<int>((numbers_.size() - at_) / static_cast<std::size_t>(size)));
-  }
-
-  void expectEnd() const
-  {
-    if (at_ != numbers_.size())
-    {
-      throw Refusal("solver/blocks go on after their end");
-    }
-  }
-
-private:
-  const std::vector<int>& numbers_;
-  std::size_t at_ = 0;
-};
-
-}  // namespace
-
 SpringBlocks::SpringBlocks(const SpringTable& springs, int particles,
-                           const std::vector<int>& numbers)
+                           const std::vector<int>& numbers, const SpringLines& lines)
 {
-  NumberReader reader(numbers);
+  NumberReader reader(numbers, "solver/blocks");
   *this = SpringBlocks(springs, particles, reader.next(0, particles));
   const int last = static_cast<int>(groups_.size()) - 1;
   const auto readLinks = [&]
@@ -134,9 +88,11 @@ SpringBlocks::SpringBlocks(const SpringTable& springs, int particles,
   reader.expectEnd();
   for (int link = 0; link < static_cast<int>(places_.size()); ++link)
   {
-    if (lawOf(springs, link).active() && places_[link].group < 0)
+    const bool here = places_[link].group >= 0;
+    if (lawOf(springs, link).active() && here == lines.has(link))
     {
-      throw Refusal("solver/blocks: spring " + std::to_string(link / 2) + " is missing");
+      throw Refusal("solver/blocks: spring " + std::to_string(link / 2) +
+                    (here ? " lies in a line as well" : " is missing"));
     }
   }
 }

@@ -92,14 +92,14 @@ SpringBlocks::SpringBlocks(const SpringTable& springs, int particles, int divide
   records_.assign(particles, 0);
 }
 
-SpringBlocks::SpringBlocks(const SpringTable& springs, int particles)
+SpringBlocks::SpringBlocks(const SpringTable& springs, int particles, const SpringLines& lines)
     : SpringBlocks(springs, particles, particles)
 {
   std::vector<std::vector<Link>> links(groups_.size());
   for (int i = 0; i < static_cast<int>(places_.size()); ++i)
   {
     const SpringLaw& law = lawOf(springs, i);
-    if (law.active())
+    if (law.active() && !lines.has(i))
     {
       const Link link{ i, std::min(law.a, law.b), std::max(law.a, law.b) };
       links[groupOf(link.a, link.b)].push_back(link);
@@ -296,7 +296,7 @@ void SpringBlocks::forgetRecords(int group)
 }
 
 void SpringBlocks::follow(const SpringTable& springs, int particles,
-                          const std::vector<int>& changed)
+                          const std::vector<int>& changed, const SpringLines& lines)
 {
   places_.resize(2 * springs.structural.size());
   open_.touching.resize(particles, 0);
@@ -314,7 +314,7 @@ void SpringBlocks::follow(const SpringTable& springs, int particles,
         continue;
       }
       remove(link);
-      if (law.active())
+      if (law.active() && !lines.has(link))
       {
         addLoose(last, { link, std::min(law.a, law.b), std::max(law.a, law.b) }, springs);
       }
@@ -392,12 +392,8 @@ void SpringBlocks::write(int link, const SpringTable& springs)
   const Place& place = places_[link];
   SpringGroup& group = groups_[place.group];
   kernels::Lanes& lanes = place.run ? group.run_lanes[place.block] : group.loose_lanes[place.block];
-  const SpringLaw& law = lawOf(springs, link);
-  lanes.rest[place.lane] = law.rest;
-  lanes.stiffness[place.lane] = law.stiffness;
-  lanes.damping[place.lane] = law.damping;
-  lanes.limit[place.lane] =
-      link % 2 == 0 ? watched_ * (law.rest * law.rest) : std::numeric_limits<float>::infinity();
+  writeLane(lanes, place.lane, lawOf(springs, link),
+            link % 2 == 0 ? watched_ : std::numeric_limits<Real>::infinity());
 }
 
 void SpringBlocks::watch(const SpringTable& springs, Real watched)

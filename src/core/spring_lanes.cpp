@@ -20,6 +20,14 @@ Links noLinks()
   return links;
 }
 
+void writeLane(kernels::Lanes& lanes, int lane, const SpringLaw& law, Real watched)
+{
+  lanes.rest[lane] = law.rest;
+  lanes.stiffness[lane] = law.stiffness;
+  lanes.damping[lane] = law.damping;
+  lanes.limit[lane] = watched * (law.rest * law.rest);
+}
+
 void clearLane(kernels::Lanes& lanes, int lane)
 {
   lanes.rest[lane] = 0;

@@ -235,9 +235,14 @@ void refuseUnsound(const Cloth& cloth, const SolverMemory& memory, const SolverP
   refuseOtherSize(memory.inverse_mass_limit, limits ? cloth.mesh.particleCount() : 0,
                   "solver/inverse_mass_limit");
   refuseSmall(memory.inverse_mass_limit, true, "solver/inverse_mass_limit");
+  const int particles = cloth.mesh.particleCount();
+  refuseUnless(params.lines || memory.lines.empty(), "solver/lines", ": there are ",
+               memory.lines.size(), " numbers of lines, must be 0 for a solver without lines");
+  const SpringLines lines =
+      memory.lines.empty() ? SpringLines() : SpringLines(cloth.springs, particles, memory.lines);
   if (!memory.blocks.empty())
   {
-    SpringBlocks(cloth.springs, cloth.mesh.particleCount(), memory.blocks);  // which refuses
+    SpringBlocks(cloth.springs, particles, memory.blocks, lines);  // which refuses
   }
 }
 

@@ -13,6 +13,7 @@ SimulationParams thesisParams(const Setting& setting)
   SimulationParams params;
   params.solver.kind = setting.solver;
   params.solver.time_step = setting.time_step;
+  params.solver.lines = setting.lines;
   params.solver.max_strain = 0.1;
   params.material.areal_density = 0.1;
   params.material.stiffness = 150.0;

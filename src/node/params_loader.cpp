@@ -97,6 +97,7 @@ void readPhysics(ParamReader& reader, cloth::SimulationParams& simulation)
   reader.read("time_step", simulation.solver.time_step);
   reader.read("max_strain", simulation.solver.max_strain);
   reader.read("max_substeps", simulation.solver.max_substeps);
+  reader.read("lines", simulation.solver.lines);
   reader.read("max_grasp_distance", simulation.max_grasp_distance);
   reader.read("grasp_force_filter", simulation.grasp_force_filter);
   reader.read("max_gripper_speed", simulation.max_gripper_speed);

@@ -187,7 +187,8 @@ private:
 bool DirectionTable::run()
 {
   std::printf("%s, %d x %d, %s, %g ms\n", nameOf(setting_.pattern), setting_.resolution,
-              setting_.resolution, nameOf(setting_.solver), 1e3 * setting_.time_step);
+              setting_.resolution, solverName(setting_.solver, setting_.lines),
+              1e3 * setting_.time_step);
   std::printf("  %-16s %11s %11s %11s %11s %11s %11s %11s %11s %11s %5s %4s\n", "pull", "line 1 m",
               "edges 1 m", "line 2 m", "edges 2 m", "on along", "on across", "on, angle",
               "flap half", "flap end", "loose", "runs");

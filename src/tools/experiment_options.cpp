@@ -53,16 +53,20 @@ std::vector<std::string> parts(const std::string& text)
   return parts;
 }
 
-SolverKind solverKind(const std::string& name)
+void readSolver(const std::string& name, Options& options)
 {
-  for (const SolverKind kind : { SolverKind::XPBD, SolverKind::FORCE_SPRINGS })
+  for (const auto& [kind, lines] :
+       { std::pair{ SolverKind::XPBD, false }, std::pair{ SolverKind::XPBD, true },
+         std::pair{ SolverKind::FORCE_SPRINGS, false } })
   {
-    if (name == nameOf(kind))
+    if (name == solverName(kind, lines))
     {
-      return kind;
+      options.solver = kind;
+      options.lines = lines;
+      return;
     }
   }
-  throw UsageError("--solver is \"" + name + "\", must be xpbd or force_springs");
+  throw UsageError("--solver is \"" + name + "\", must be xpbd, xpbd_lines or force_springs");
 }
 
 double within(const std::string& option, const std::string& text, double low, double high)
@@ -129,7 +133,7 @@ void apply(Options& options, const std::string& option, const std::string& value
   }
   else if (option == "--solver")
   {
-    options.solver = solverKind(value);
+    readSolver(value, options);
   }
   else if (option == "--output")
   {
@@ -153,9 +157,13 @@ const char* nameOf(RectanglePattern pattern)
   return NAMES[static_cast<int>(pattern)];
 }
 
-const char* nameOf(SolverKind solver)
+const char* solverName(SolverKind solver, bool lines)
 {
-  return solver == SolverKind::XPBD ? "xpbd" : "force_springs";
+  if (solver == SolverKind::FORCE_SPRINGS)
+  {
+    return "force_springs";
+  }
+  return lines ? "xpbd_lines" : "xpbd";
 }
 
 std::string clothName(const Setting& setting)
@@ -171,7 +179,8 @@ std::string fileName(const Setting& setting)
   const Setting usual;
   std::string name = nameOf(setting.pattern);
   name += "_" + std::to_string(setting.resolution) + "_" + std::to_string(setting.seed);
-  name += setting.solver == usual.solver ? "" : std::string("_") + nameOf(setting.solver);
+  const bool usual_solver = setting.solver == usual.solver && setting.lines == usual.lines;
+  name += usual_solver ? "" : std::string("_") + solverName(setting.solver, setting.lines);
   name += setting.grading == usual.grading ? "" : "_grading_" + text(setting.grading);
   name += setting.time_step == usual.time_step ? "" : "_dt_" + text(setting.time_step);
   return name;
@@ -185,6 +194,7 @@ std::vector<Setting> Options::settings(const std::vector<int>& default_resolutio
   Setting setting;
   setting.grading = grading.value_or(1.0);
   setting.solver = solver;
+  setting.lines = lines;
   for (const int resolution : resolutions.empty() ? default_resolutions : resolutions)
   {
     setting.resolution = resolution;

@@ -26,6 +26,7 @@ struct Options
   std::vector<double> time_steps;  ///< [s]
   std::optional<double> grading;   ///< else 1, or what the experiment is about
   SolverKind solver = SolverKind::XPBD;
+  bool lines = false;  ///< see SolverParams
   std::string output;  ///< folder; empty = none
 
   /// Fills the empty lists, then every combination; meshes that have no seed come once.
@@ -38,7 +39,9 @@ struct Options
 Options parseOptions(const std::vector<std::string>& arguments);
 
 const char* nameOf(RectanglePattern pattern);
-const char* nameOf(SolverKind solver);
+
+/// Of the solver.
+const char* solverName(SolverKind solver, bool lines);
 
 /// Mesh, resolution and, where it matters, seed: to name a run or a file.
 std::string clothName(const Setting& setting);

@@ -19,11 +19,12 @@ double median(std::vector<double> values)
 
 Row settingColumns(const Setting& setting)
 {
-  return {
-    { "mesh", nameOf(setting.pattern) },      { "resolution", std::to_string(setting.resolution) },
-    { "seed", std::to_string(setting.seed) }, { "grading", text(setting.grading) },
-    { "solver", nameOf(setting.solver) },     { "time_step", text(setting.time_step) }
-  };
+  return { { "mesh", nameOf(setting.pattern) },
+           { "resolution", std::to_string(setting.resolution) },
+           { "seed", std::to_string(setting.seed) },
+           { "grading", text(setting.grading) },
+           { "solver", solverName(setting.solver, setting.lines) },
+           { "time_step", text(setting.time_step) } };
 }
 
 Output::Output(const std::string& folder, const std::string& table) : folder_(folder)

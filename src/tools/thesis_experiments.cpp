@@ -27,7 +27,7 @@ options; LIST is one value or several with commas between, and every combination
   --mesh LIST        one_diagonal, alternating, irregular, or all
   --seed LIST        of irregular meshes; direction and trouser: also of where cloth is held
   --grading G        spacing at the border over spacing in the middle, 0.2 to 5 (default 1; nonuniform: 2)
-  --solver NAME      xpbd (default) or force_springs
+  --solver NAME      xpbd (default), xpbd_lines or force_springs
   --time-step LIST   [s], 0.00001 to 0.1 (default 0.001)
   --output DIR       one CSV row per run in DIR/EXPERIMENT.csv, cloths as OBJ files
   --help             this text

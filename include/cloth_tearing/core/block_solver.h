@@ -1,4 +1,4 @@
-// What both solvers share: springs in blocks, gone through group by group.
+// What both solvers share: springs in blocks, gone through group by group, and lines of them.
 #pragma once
 
 #include <array>
@@ -15,11 +15,16 @@ namespace cloth
 class BlockSolver : public Solver
 {
 public:
+  /// @param in_lines whether springs that lie in lines are kept in ladders, not in blocks
+  explicit BlockSolver(bool in_lines = false) : in_lines_(in_lines) {}
+
   void follow(const SpringTable& springs, int particles) override;
   SolverMemory memory() const override;
   void recall(const SolverMemory& memory) override;
 
 protected:
+  bool inLines() const { return in_lines_; }
+
   /// Notes of blocks; its room only grows.
   struct Notes
   {
@@ -44,8 +49,8 @@ protected:
     int end;
   };
 
-  /// Brings the blocks up to the springs of now. To be called before what follows.
-  void arrange(const SpringTable& springs, int particles);
+  /// Brings lines and blocks up to the springs of now. To be called before what follows.
+  void arrange(const SpringTable& springs, const ParticleState& state);
 
   const std::vector<SpringGroup>& groups() const { return blocks_.groups(); }
 
@@ -66,6 +71,19 @@ protected:
     }
   }
 
+  /// Calls work(ladder, notes of it), phase by phase; within a phase in any order.
+  template <class Work>
+  void forLadders(const Work& work)
+  {
+    const auto& phases = lines_.phases();
+    for (std::size_t phase = 0; phase + 1 < phases.size(); ++phase)
+    {
+      const int first = phases[phase];
+      share(workers(), phases[phase + 1] - first,
+            [&](int i) { work(lines_.ladders()[first + i], line_notes_[first + i]); });
+    }
+  }
+
   /// Calls work(range) for each stretch, in any order.
   template <class Work>
   void forStretches(int particles, const Work& work) const
@@ -73,7 +91,7 @@ protected:
     share(workers(), stretches(), [&](int i) { work(stretch(i, particles)); });
   }
 
-  /// Takes what is written in the scratch of all groups over into stretched().
+  /// Takes what is written in the scratch of all groups and ladders over into stretched().
   void collectNotes(std::size_t springs);
 
   /// Copies x, y and z of a group's particles into its records, and back.
@@ -84,13 +102,18 @@ protected:
 
 private:
   bool arranged() const { return !blocks_.groups().empty(); }
+  void begin(const SpringTable& springs, const ParticleState& state);
+  void keepUp(const SpringTable& springs, int particles);
   void take(const Notes& notes, const std::vector<Links>& links);
 
+  bool in_lines_;
+  SpringLines lines_;
   SpringBlocks blocks_;
-  std::uint64_t seen_ = 0;            ///< changes of the springs that blocks_ has followed
-  std::vector<int> recalled_;         ///< what blocks_ are to be made from; empty: from the springs
+  std::uint64_t seen_ = 0;            ///< changes of the springs that both have followed
+  SolverMemory recalled_;             ///< what they are to be made from
   std::vector<int> changed_;          ///< springs, scratch
   std::vector<Scratch> scratch_;      ///< by group
+  std::vector<Notes> line_notes_;     ///< by ladder
   std::vector<std::uint64_t> noted_;  ///< a bit for each spring, scratch
 };
 

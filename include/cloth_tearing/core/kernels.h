@@ -70,6 +70,43 @@ struct Records
   const int* particle;  ///< of each record
 };
 
+/// Lines of springs, one in each lane: the spring of rung k joins what lies at `first` + k `step`
+/// and `first` + (k + 1) `step`, plus the lane. Lanes without a spring part lines. All places are
+/// of different particles.
+struct Ladder
+{
+  int first;
+  int step;
+  int rungs;
+  const Lanes* lanes;   ///< by rung
+  const int* particle;  ///< what `held` has each place as, by node and lane; null: as the place
+};
+
+/// What is known of a rung's springs on the way up: the pull of each, over its length, is `pull` +
+/// `share` that of the next.
+struct alignas(64) Rung
+{
+  float pull[LANES];
+  float share[LANES];
+};
+
+/// Which particles belong to the nodes of a ladder.
+struct NodeList
+{
+  const int* particle;  ///< by node and lane; -1: none
+  const char* in_rows;  ///< by four nodes: whether each lane has four that follow one another there
+  int count;            ///< of nodes
+  int lanes;            ///< the others have none
+};
+
+/// Copies of the particles of a node.
+struct alignas(64) Node
+{
+  float way[3][LANES];
+  float start[3][LANES];
+  float inverse_mass[LANES];
+};
+
 /// The particles as forces see them.
 struct Bodies
 {
@@ -161,6 +198,17 @@ struct Set
                     float dt, Note* notes);
   int (*sweep_records)(const Records& records, float* const held[3], const RecordEnds* ends,
                        const Lanes* lanes, int count, float dt, Note* notes);
+
+  /// Solves the lines of a ladder, each as a whole: all that its springs do to each other is in one
+  /// tridiagonal system of the same equations (Thomas), up the rungs and down again.
+  /// @param rungs, notes have room for one of each
+  /// @return how many notes were written
+  int (*sweep_ladder)(const Ladder& ladder, const Particles& particles, float dt, Rung* rungs,
+                      Note* notes);
+
+  /// Copies particles to nodes, and their ways back.
+  void (*pack_nodes)(const Particles& particles, const NodeList& list, Node* nodes);
+  void (*unpack_nodes)(const Particles& particles, const NodeList& list, const Node* nodes);
 
   /// Adds the forces of damped springs to their ends (thesis 2.1.1).
   /// @param notes as above, of lengths when the loop comes to them

@@ -26,6 +26,10 @@ struct SolverParams
   double time_step = 0.001;  ///< dt [s], > 0 and <= 0.02
   double max_strain = 0.10;  ///< limiter of the force springs [-], > 0; XPBD needs none (2.1.1)
   int max_substeps = 8;      ///< the force springs may cut a step into this many, 1..64
+
+  /// XPBD alone: whether structural springs that lie in lines are solved together, each line as a
+  /// whole. That keeps cloth as stiff as stated at steps about three times as long.
+  bool lines = false;
 };
 
 std::vector<std::string> problems(const SolverParams& params);
@@ -43,6 +47,7 @@ struct SolverMemory
   int substeps = 1;
   std::vector<Real> inverse_mass_limit;  ///< by particle [1/kg], > 0; empty where it has none
   std::vector<int> blocks;  ///< see SpringBlocks::toNumbers(); empty: as if it began now
+  std::vector<int> lines;   ///< see SpringLines::toNumbers(); empty: none if there are blocks
 };
 
 /// Moves particles under springs and outer accelerations. Knows nothing of tearing: it is given
@@ -106,6 +111,16 @@ public:
   /// above 1 the cloth is softer than its stiffness says. By default 0: as stiff as stated.
   virtual double stiffnessNumber(const ParticleState& /*state*/, const SpringTable& /*springs*/,
                                  double /*dt*/) const
+  {
+    return 0.0;
+  }
+
+  /// (1/m_a + 1/m_b) k dt^2 as above where whole lines of springs are solved together, which keeps
+  /// them as stiff as stated: then waves across the cloth limit the step. Half of it, times the
+  /// strain under some tension, is the square of how many springs such a wave crosses in a step.
+  /// By default 0: no lines.
+  virtual double lineNumber(const ParticleState& /*state*/, const SpringTable& /*springs*/,
+                            double /*dt*/) const
   {
     return 0.0;
   }

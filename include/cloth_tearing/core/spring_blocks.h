@@ -8,6 +8,7 @@
 
 #include "cloth_tearing/core/kernels.h"
 #include "cloth_tearing/core/spring_lanes.h"
+#include "cloth_tearing/core/spring_lines.h"
 #include "cloth_tearing/core/spring_table.h"
 
 namespace cloth
@@ -32,7 +33,8 @@ struct SpringGroup
   std::vector<int> particles;  ///< of each record; of the first, -1: lanes without a spring have it
 };
 
-/// All springs of a cloth in blocks of which no two springs share a particle.
+/// All springs of a cloth in blocks of which no two springs share a particle, but for those that
+/// lie in lines.
 ///
 /// Where a spring lies depends on the cloth and on its tears one after the other, never on the
 /// processor or the number of threads: neither do the bits of a step. A tear costs what it changes.
@@ -42,18 +44,21 @@ public:
   SpringBlocks() = default;
 
   /// Arranges all springs of a table anew.
-  SpringBlocks(const SpringTable& springs, int particles);
+  SpringBlocks(const SpringTable& springs, int particles, const SpringLines& lines = {});
 
   /// Arranges them as toNumbers() told.
   /// @throws Refusal if that is no sound arrangement of these springs
-  SpringBlocks(const SpringTable& springs, int particles, const std::vector<int>& numbers);
+  SpringBlocks(const SpringTable& springs, int particles, const std::vector<int>& numbers,
+               const SpringLines& lines = {});
 
   /// All that decides where springs lie and where those will that are still to come.
   std::vector<int> toNumbers() const;
 
   /// Takes over springs that were changed, added or have come to carry nothing, by SpringId; each
-  /// that does not fit its place any more goes into a loose block of the last group.
-  void follow(const SpringTable& springs, int particles, const std::vector<int>& changed);
+  /// that does not fit its place any more goes into a loose block of the last group. The lines are
+  /// to follow before.
+  void follow(const SpringTable& springs, int particles, const std::vector<int>& changed,
+              const SpringLines& lines = {});
 
   /// Structural springs are noted from now on if their squared length is more than this part of
   /// their squared rest length [-].

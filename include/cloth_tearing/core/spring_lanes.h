@@ -34,6 +34,10 @@ inline int lowestBit(std::uint64_t bits)
 
 Links noLinks();
 
+/// What a spring is like, into a lane.
+/// @param watched squared length over squared rest length above which it is noted [-]
+void writeLane(kernels::Lanes& lanes, int lane, const SpringLaw& law, Real watched);
+
 /// Makes a lane one without a spring.
 void clearLane(kernels::Lanes& lanes, int lane);
 kernels::Lanes noLanes();

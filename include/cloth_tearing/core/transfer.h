@@ -40,11 +40,12 @@ void transfer(Archive& archive, Environment& environment)
 template <class Archive>
 void transfer(Archive& archive, SolverParams& params)
 {
-  auto& [kind, time_step, max_strain, max_substeps] = params;
+  auto& [kind, time_step, max_strain, max_substeps, lines] = params;
   archive.choice("kind", kind, SolverKind::FORCE_SPRINGS);
   archive("time_step", time_step);
   archive("max_strain", max_strain);
   archive("max_substeps", max_substeps);
+  archive("lines", lines);
 }
 
 template <class Archive>
@@ -401,10 +402,11 @@ void transfer(Archive& archive, Stability& stability)
 template <class Archive>
 void transfer(Archive& archive, SolverMemory& memory)
 {
-  auto& [substeps, inverse_mass_limit, blocks] = memory;
+  auto& [substeps, inverse_mass_limit, blocks, lines] = memory;
   archive("substeps", substeps);
   archive("inverse_mass_limit", inverse_mass_limit);
   archive("blocks", blocks);
+  archive("lines", lines);
 }
 
 // -- what happened --------------------------------------------------------------------------------

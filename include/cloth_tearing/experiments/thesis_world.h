@@ -22,6 +22,7 @@ struct Setting
   double grading = 1.0;    ///< spacing at the border over spacing in the middle [-]
   SolverKind solver = SolverKind::XPBD;
   double time_step = 0.001;  ///< [s]
+  bool lines = false;        ///< see SolverParams
 };
 
 /// A hung cloth is at rest after so long [s].
