@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 namespace cloth
@@ -44,27 +45,52 @@ int stepOf(const SpringLine& line)
   return step;
 }
 
-/// Lines of one step whose first particles, as remainders by that step, lie within LANES.
+/// LANES neighbours of which each node of some lines has one: particle t * step + o lies at node t,
+/// where o, the remainder, is in the window.
 struct Window
+{
+  int step;
+  int begin;  ///< remainder in lane 0
+  int lanes;  ///< the others belong to another window
+
+  bool operator<(const Window& other) const
+  {
+    return std::tie(step, begin) < std::tie(other.step, other.begin);
+  }
+};
+
+/// The window of an ascending line. The last one of a step begins early, so that it ends in time.
+Window windowOf(const SpringLine& line)
+{
+  const int step = stepOf(line);
+  if (step < LANES)
+  {
+    return {};
+  }
+  const int begin = line.particles.front() % step / LANES * LANES;
+  return { step, std::min(begin, step - LANES), std::min(LANES, step - begin) };
+}
+
+/// The lines of a window.
+struct Neighbours
 {
   std::vector<std::size_t> lines;
   int springs = 0;
   int first_node = 0;  ///< particle over step
   int last_node = 0;
-};
 
-/// @param key step and number of the window
-void add(std::map<std::pair<int, int>, Window>& windows, const std::pair<int, int>& key,
-         const SpringLine& line, std::size_t index)
-{
-  Window& window = windows[key];
-  const int first = line.particles.front() / key.first;
-  const int last = line.particles.back() / key.first;
-  window.first_node = window.lines.empty() ? first : std::min(window.first_node, first);
-  window.last_node = window.lines.empty() ? last : std::max(window.last_node, last);
-  window.lines.push_back(index);
-  window.springs += static_cast<int>(line.springs.size());
-}
+  void add(std::size_t index, const SpringLine& line, int step)
+  {
+    const int first = line.particles.front() / step;
+    const int last = line.particles.back() / step;
+    first_node = lines.empty() ? first : std::min(first_node, first);
+    last_node = lines.empty() ? last : std::max(last_node, last);
+    lines.push_back(index);
+    springs += static_cast<int>(line.springs.size());
+  }
+
+  int rungs() const { return last_node - first_node; }
+};
 
 /// Whether four nodes have particles in each lane in use, and those of a lane follow one another.
 bool inRows(const SpringLadder& ladder, int node)
@@ -103,45 +129,40 @@ SpringLines::SpringLines(const SpringTable& springs, const Vec3Array& places)
   }
 }
 
-/// Particle t * step + o lies at node t in lane o - begin of its window, so that no two windows
-/// have one in common.
 /// @return the other lines
 std::vector<SpringLine> SpringLines::laySideBySide(std::vector<SpringLine> lines, int particles,
                                                    const SpringTable& springs)
 {
-  std::map<std::pair<int, int>, Window> windows;
+  std::map<Window, Neighbours> windows;
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    const int step = stepOf(lines[i]);
-    const int window = step > 0 ? lines[i].particles.front() % step / LANES : 0;
-    const bool whole = (window + 1) * LANES <= step;
-    if (whole && lines[i].particles.back() / step * step + (window + 1) * LANES <= particles)
+    const Window window = windowOf(lines[i]);
+    const int last = lines[i].particles.back();
+    if (window.step > 0 && last - last % window.step + window.begin + LANES <= particles)
     {
-      add(windows, { step, window }, lines[i], i);
+      windows[window].add(i, lines[i], window.step);
     }
   }
   int step = 0;
-  for (const auto& [key, window] : windows)
+  for (const auto& [window, found] : windows)
   {
-    const int rungs = window.last_node - window.first_node;
-    if (window.springs < DENSE * rungs * LANES)
+    if (found.springs < DENSE * found.rungs() * window.lanes)
     {
       continue;
     }
-    if (key.first != step)
+    if (window.step != step || window.lanes < LANES)
     {
-      endPhase();
+      endPhase();  // whole windows of one step have no particle in common, others may
     }
-    step = key.first;
-    const int begin = key.second * LANES;
+    step = window.step;
     SpringLadder empty;
-    empty.first = window.first_node * step + begin;
+    empty.first = found.first_node * step + window.begin;
     empty.step = step;
-    const int ladder = addLadder(std::move(empty), rungs);
-    for (std::size_t i : window.lines)
+    const int ladder = addLadder(std::move(empty), found.rungs());
+    for (std::size_t i : found.lines)
     {
-      const int lane = lines[i].particles.front() % step - begin;
-      int rung = lines[i].particles.front() / step - window.first_node;
+      const int lane = lines[i].particles.front() % step - window.begin;
+      int rung = lines[i].particles.front() / step - found.first_node;
       for (int spring : lines[i].springs)
       {
         put(ladder, rung++, lane, spring, springs);
