@@ -92,14 +92,15 @@ struct Neighbours
   int rungs() const { return last_node - first_node; }
 };
 
-/// Whether four nodes have particles in each lane in use, and those of a lane follow one another.
+/// Whether four nodes have particles in all lanes in use but the last three or less, and those of a
+/// lane follow one another.
 bool inRows(const SpringLadder& ladder, int node)
 {
   if (node + 4 > ladder.nodes())
   {
     return false;
   }
-  for (int lane = 0; lane < (ladder.used + 3) / 4 * 4; ++lane)
+  for (int lane = 0; lane < ladder.used / 4 * 4; ++lane)
   {
     const int first = ladder.particle(node, lane);
     for (int k = 0; k < 4; ++k)

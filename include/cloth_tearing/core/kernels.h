@@ -94,7 +94,8 @@ struct alignas(64) Rung
 struct NodeList
 {
   const int* particle;  ///< by node and lane; -1: none
-  const char* in_rows;  ///< by four nodes: whether each lane has four that follow one another there
+  const char* in_rows;  ///< by four nodes: whether lanes, four at a time, have four that follow one
+                        ///< another there
   int count;            ///< of nodes
   int lanes;            ///< the others have none
 };

@@ -230,9 +230,10 @@ inline void clearNode(Node& node)
   }
 }
 
-inline void packNode(const Particles& particles, const int* particle, int lanes, Node& node)
+inline void packNode(const Particles& particles, const int* particle, int first, int end,
+                     Node& node)
 {
-  for (int lane = 0; lane < lanes; ++lane)
+  for (int lane = first; lane < end; ++lane)
   {
     const int p = particle[lane];
     const bool there = p >= 0;
@@ -254,7 +255,8 @@ void packNodes(const Particles& particles, const NodeList& list, Node* nodes)
   for (int i = 0; i < list.count; i += 4)
   {
     const int* four = list.particle + i * LANES;
-    for (int lane = 0; lane < list.lanes && list.in_rows[i / 4] != 0; lane += 4)
+    const int rows = list.in_rows[i / 4] != 0 ? list.lanes / 4 * 4 : 0;  // lanes copied by rows
+    for (int lane = 0; lane < rows; lane += 4)
     {
       for (int k = 0; k < 3; ++k)
       {
@@ -263,16 +265,17 @@ void packNodes(const Particles& particles, const NodeList& list, Node* nodes)
       }
       packRows(particles.inverse_mass, four + lane, nodes[i].inverse_mass + lane);
     }
-    for (int node = i; node < i + 4 && node < list.count && list.in_rows[i / 4] == 0; ++node)
+    for (int node = i; node < i + 4 && node < list.count; ++node)
     {
-      packNode(particles, list.particle + node * LANES, list.lanes, nodes[node]);
+      packNode(particles, list.particle + node * LANES, rows, list.lanes, nodes[node]);
     }
   }
 }
 
-inline void unpackNode(const Particles& particles, const int* particle, int lanes, const Node& node)
+inline void unpackNode(const Particles& particles, const int* particle, int first, int end,
+                       const Node& node)
 {
-  for (int lane = 0; lane < lanes; ++lane)
+  for (int lane = first; lane < end; ++lane)
   {
     const int p = particle[lane];
     for (int k = 0; k < 3 && p >= 0; ++k)
@@ -287,16 +290,17 @@ void unpackNodes(const Particles& particles, const NodeList& list, const Node* n
   for (int i = 0; i < list.count; i += 4)
   {
     const int* four = list.particle + i * LANES;
-    for (int lane = 0; lane < list.lanes && list.in_rows[i / 4] != 0; lane += 4)
+    const int rows = list.in_rows[i / 4] != 0 ? list.lanes / 4 * 4 : 0;
+    for (int lane = 0; lane < rows; lane += 4)
     {
       for (int k = 0; k < 3; ++k)
       {
         unpackRows(nodes[i].way[k] + lane, four + lane, particles.way[k]);
       }
     }
-    for (int node = i; node < i + 4 && node < list.count && list.in_rows[i / 4] == 0; ++node)
+    for (int node = i; node < i + 4 && node < list.count; ++node)
     {
-      unpackNode(particles, list.particle + node * LANES, list.lanes, nodes[node]);
+      unpackNode(particles, list.particle + node * LANES, rows, list.lanes, nodes[node]);
     }
   }
 }
