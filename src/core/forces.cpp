@@ -8,9 +8,6 @@ namespace cloth
 namespace
 {
 
-/// From so many loose triangles a particle on, it pays to put the particles into records.
-constexpr double MANY = 0.25;
-
 /// The particles from `first` on.
 kernels::Air from(int first, kernels::Air air)
 {
@@ -71,7 +68,6 @@ void OuterForces::blow(const Cloth& cloth, const Environment& environment, Worke
 {
   const ParticleState& state = cloth.state;
   force_.resize(state.size());
-  records_.resize(triangles_.groups().size());
   kernels::Air air{};
   air.drag = static_cast<float>(environment.wind_drag);
   for (int k = 0; k < 3; ++k)
@@ -106,39 +102,8 @@ void OuterForces::blowOn(int group, const Cloth& cloth, const kernels::Air& air)
   loops.blow_runs(air, triangles_.runs().data() + triangles.first_run,
                   triangles_.areas().data() + triangles.first_run,
                   triangles.end_run - triangles.first_run);
-  if (static_cast<double>(triangles.loose.size()) > MANY * (triangles.high - triangles.low))
-  {
-    blowOnRecords(group, air);
-  }
-  else
-  {
-    loops.blow_ends(from(triangles.low, air), triangles.ends.data(), triangles.areas.data(),
-                    static_cast<int>(triangles.ends.size()));
-  }
-}
-
-/// On loose triangles.
-void OuterForces::blowOnRecords(int group, const kernels::Air& air)
-{
-  const kernels::Set& loops = kernels::best();
-  const TriangleGroup& triangles = triangles_.groups()[group];
-  const int count = triangles.high - triangles.low;
-  const kernels::Air there = from(triangles.low, air);
-  Records& records = records_[group];
-  records.position.resize(count);
-  records.velocity.resize(count);
-  records.force.resize(count);
-  loops.pack(there.position, records.position.data(), count);
-  loops.pack(there.velocity, records.velocity.data(), count);
-  loops.pack(there.force, records.force.data(), count);
-  const kernels::AirRecords in_records{ records.position.data(),
-                                        records.velocity.data(),
-                                        records.force.data(),
-                                        { air.wind[0], air.wind[1], air.wind[2] },
-                                        air.drag };
-  loops.blow_records(in_records, triangles.ends.data(), triangles.areas.data(),
-                     static_cast<int>(triangles.ends.size()));
-  loops.unpack(records.force.data(), there.force, count);
+  loops.blow_ends(from(triangles.low, air), triangles.ends.data(), triangles.areas.data(),
+                  static_cast<int>(triangles.ends.size()));
 }
 
 void OuterForces::addWind(const Cloth& cloth, Vec3Array& acceleration, int begin, int end) const

@@ -9,8 +9,7 @@
 #include "kernels/particles.inl"
 #include "kernels/contact.inl"
 
-constexpr Set SET = { NAME,        sweepRuns,  sweepRecords,  sweepLadder, packNodes,
-                      unpackNodes, pullRuns,   pullRecords,   blowRuns,    blowEnds,
-                      blowRecords, pack,       unpack,        accelerate,  addForce,
-                      tileSides,   particleSides, land,       calm,        predict,
-                      finish,      above,      integrate };
+constexpr Set SET = { NAME,          sweepRuns, sweepRecords, sweepLadder, packNodes,
+                      unpackNodes,   pullRuns,  pullRecords,  blowRuns,    blowEnds,
+                      accelerate,    addForce,  tileSides,    particleSides, land,
+                      calm,          predict,   finish,       above,       integrate };

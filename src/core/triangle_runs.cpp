@@ -251,27 +251,21 @@ void TriangleRuns::arrange(int group, const Mesh& mesh, const RestShape& rest)
   }
   g.stale = false;
   g.low = g.loose.empty() ? 0 : mesh.particleCount();
-  g.high = 0;
   for (int triangle : g.loose)
   {
-    const auto [low, high] = range(mesh.triangle({ triangle }));
-    g.low = std::min(g.low, low);
-    g.high = std::max(g.high, high + 1);
+    g.low = std::min(g.low, range(mesh.triangle({ triangle }))[0]);
   }
   const std::size_t blocks = (g.loose.size() + LANES - 1) / LANES;
   g.ends.assign(blocks, {});
   g.areas.assign(blocks, {});
   for (std::size_t i = 0; i < g.loose.size(); ++i)
   {
-    // Neighbours in the list share particles: they are apart, so that nobody waits for what he has
-    // just stored.
-    const std::size_t block = i % blocks;
-    const std::size_t lane = i / blocks;
     const auto& p = mesh.triangle({ g.loose[i] }).particles;
-    g.ends[block].a[lane] = p[0].index - g.low;
-    g.ends[block].b[lane] = p[1].index - g.low;
-    g.ends[block].c[lane] = p[2].index - g.low;
-    g.areas[block].area[lane] = static_cast<float>(rest.area[g.loose[i]]);
+    kernels::TriangleEnds& ends = g.ends[i / LANES];
+    ends.a[i % LANES] = p[0].index - g.low;
+    ends.b[i % LANES] = p[1].index - g.low;
+    ends.c[i % LANES] = p[2].index - g.low;
+    g.areas[i / LANES].area[i % LANES] = static_cast<float>(rest.area[g.loose[i]]);
   }
 }
 

@@ -32,20 +32,10 @@ public:
 private:
   void blow(const Cloth& cloth, const Environment& environment, WorkerPool* workers);
   void blowOn(int group, const Cloth& cloth, const kernels::Air& air);
-  void blowOnRecords(int group, const kernels::Air& air);
   void addWind(const Cloth& cloth, Vec3Array& acceleration, int begin, int end) const;
 
-  /// Of the particles of a group's loose triangles.
-  struct Records
-  {
-    std::vector<kernels::Record> position;
-    std::vector<kernels::Record> velocity;
-    std::vector<kernels::Record> force;
-  };
-
   TriangleRuns triangles_;
-  std::vector<Records> records_;  ///< by group, scratch
-  Vec3Array force_;               ///< of the wind, by particle [N]
+  Vec3Array force_;  ///< of the wind, by particle [N]
 };
 
 }  // namespace cloth

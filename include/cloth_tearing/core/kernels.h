@@ -177,16 +177,6 @@ struct Floor
   float dt;        ///< [s]
 };
 
-/// The same for triangles of any particles, which are records.
-struct AirRecords
-{
-  const Record* position;
-  const Record* velocity;
-  Record* force;
-  float wind[3];
-  float drag;
-};
-
 /// The loops for one instruction set.
 struct Set
 {
@@ -221,12 +211,6 @@ struct Set
   /// Adds what the wind does to triangles to their corners (Provot 1995).
   void (*blow_runs)(const Air& air, const TriangleRun* runs, const Areas* areas, int count);
   void (*blow_ends)(const Air& air, const TriangleEnds* ends, const Areas* areas, int count);
-  void (*blow_records)(const AirRecords& air, const TriangleEnds* ends, const Areas* areas,
-                       int count);
-
-  /// Copies `count` vectors into records, and back.
-  void (*pack)(const float* const axes[3], Record* records, int count);
-  void (*unpack)(const Record* records, float* const axes[3], int count);
 
   /// acceleration = outer - friction * velocity for `count` numbers of one axis.
   void (*accelerate)(float* acceleration, const float* velocity, float outer, float friction,

@@ -19,9 +19,8 @@ struct TriangleGroup
 {
   int first_run = 0;
   int end_run = 0;
-  int low = 0;             ///< first of the particles that loose triangles may have
-  int high = 0;            ///< and the one after the last
-  std::vector<int> loose;  ///< ascending
+  int low = 0;                              ///< first of the particles of loose ones
+  std::vector<int> loose;                   ///< ascending
   std::vector<kernels::TriangleEnds> ends;  ///< of the loose ones, counted from `low`
   std::vector<kernels::Areas> areas;        ///< of the loose ones [m^2]
   bool stale = true;                        ///< `loose` has changed since `ends` were written

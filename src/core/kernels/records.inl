@@ -143,42 +143,4 @@ inline void storeRecords(Record* records, const int* index, const End& end, Vect
 
 #endif
 
-void pack(const float* const axes[3], Record* records, int count)
-{
-  int lanes[WIDTH];
-  for (int i = 0; i < WIDTH; ++i)
-  {
-    lanes[i] = i;
-  }
-  int first = 0;
-  for (; first + WIDTH <= count; first += WIDTH)
-  {
-    storeRecords(records + first, lanes, loadEnd(axes, first), Vector{});
-  }
-  for (; first < count; ++first)
-  {
-    records[first] = { axes[0][first], axes[1][first], axes[2][first], 0.0f };
-  }
-}
-
-void unpack(const Record* records, float* const axes[3], int count)
-{
-  int lanes[WIDTH];
-  for (int i = 0; i < WIDTH; ++i)
-  {
-    lanes[i] = i;
-  }
-  int first = 0;
-  for (; first + WIDTH <= count; first += WIDTH)
-  {
-    storeEnd(axes, first, endOf(loadRecords(records + first, lanes)));
-  }
-  for (; first < count; ++first)
-  {
-    axes[0][first] = records[first].x;
-    axes[1][first] = records[first].y;
-    axes[2][first] = records[first].z;
-  }
-}
-
 // NOLINTEND

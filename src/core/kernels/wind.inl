@@ -19,8 +19,7 @@ struct Corners
   End a, b, c, velocity_a, velocity_b, velocity_c;
 };
 
-template <class Wind>
-inline Push pushOf(const Corners& corners, const Wind& air, Vector rest_area)
+inline Push pushOf(const Corners& corners, const Air& air, Vector rest_area)
 {
   const Vector zero = Vector{};
   const End& va = corners.velocity_a;
@@ -41,49 +40,34 @@ inline Push pushOf(const Corners& corners, const Wind& air, Vector rest_area)
   return push;
 }
 
-/// So many runs are gone through together: their three stretches overlap, and a processor is slow
-/// to load what it has just stored at a place a little beside it.
-constexpr int BATCH = 8;
-
-void blowBatch(const Air& air, const TriangleRun* runs, const Areas* areas, int count)
+void blowRuns(const Air& air, const TriangleRun* runs, const Areas* areas, int count)
 {
   constexpr int REGISTERS = LANES / WIDTH;
-  Push pushes[BATCH][REGISTERS];
   for (int i = 0; i < count; ++i)
   {
+    Push pushes[REGISTERS];
     for (int r = 0; r < REGISTERS; ++r)
     {
       const int a = runs[i].a + r * WIDTH;
       const int b = runs[i].b + r * WIDTH;
       const int c = runs[i].c + r * WIDTH;
-      pushes[i][r] = pushOf({ loadEnd(air.position, a), loadEnd(air.position, b),
-                              loadEnd(air.position, c), loadEnd(air.velocity, a),
-                              loadEnd(air.velocity, b), loadEnd(air.velocity, c) },
-                            air, load(areas[i].area + r * WIDTH));
+      pushes[r] =
+          pushOf({ loadEnd(air.position, a), loadEnd(air.position, b), loadEnd(air.position, c),
+                   loadEnd(air.velocity, a), loadEnd(air.velocity, b), loadEnd(air.velocity, c) },
+                 air, load(areas[i].area + r * WIDTH));
     }
-  }
-  // One corner after the other, and all lanes of each: what is added first must not depend on the
-  // width.
-  int TriangleRun::*const corners[3] = { &TriangleRun::a, &TriangleRun::b, &TriangleRun::c };
-  for (int TriangleRun::*first : corners)
-  {
-    for (int i = 0; i < count; ++i)
+    // One after the other, and all lanes of each: the three stretches may overlap, and what is
+    // added first must not depend on the width.
+    const int corners[3] = { runs[i].a, runs[i].b, runs[i].c };
+    for (int first : corners)
     {
       for (int r = 0; r < REGISTERS; ++r)
       {
-        const int corner = runs[i].*first + r * WIDTH;
+        const int corner = first + r * WIDTH;
         storeEnd(air.force, corner,
-                 moved(loadEnd(air.force, corner), pushes[i][r].factor, pushes[i][r].normal));
+                 moved(loadEnd(air.force, corner), pushes[r].factor, pushes[r].normal));
       }
     }
-  }
-}
-
-void blowRuns(const Air& air, const TriangleRun* runs, const Areas* areas, int count)
-{
-  for (int i = 0; i < count; i += BATCH)
-  {
-    blowBatch(air, runs + i, areas + i, count - i < BATCH ? count - i : BATCH);
   }
 }
 
@@ -126,52 +110,6 @@ void blowEnds(const Air& air, const TriangleEnds* ends, const Areas* areas, int 
           air.force[k][corner] += force[k][i];
         }
       }
-    }
-  }
-}
-
-using Four = float __attribute__((vector_size(sizeof(Record))));
-
-/// Adds `force` to a record.
-inline void addTo(Record& record, const Four& force)
-{
-  Four sum;
-  __builtin_memcpy(&sum, &record, sizeof(sum));
-  sum += force;
-  __builtin_memcpy(&record, &sum, sizeof(sum));
-}
-
-void blowRecords(const AirRecords& air, const TriangleEnds* ends, const Areas* areas, int count)
-{
-  int lanes[WIDTH];
-  for (int i = 0; i < WIDTH; ++i)
-  {
-    lanes[i] = i;
-  }
-  for (int lane = 0; lane < count * LANES; lane += WIDTH)
-  {
-    const int block = lane / LANES;
-    const int first = lane % LANES;
-    const int* a = ends[block].a + first;
-    const int* b = ends[block].b + first;
-    const int* c = ends[block].c + first;
-    const Push push =
-        pushOf({ endOf(loadRecords(air.position, a)), endOf(loadRecords(air.position, b)),
-                 endOf(loadRecords(air.position, c)), endOf(loadRecords(air.velocity, a)),
-                 endOf(loadRecords(air.velocity, b)), endOf(loadRecords(air.velocity, c)) },
-               air, load(areas[block].area + first));
-    Record forces[WIDTH];
-    storeRecords(
-        forces, lanes,
-        { push.factor * push.normal.x, push.factor * push.normal.y, push.factor * push.normal.z },
-        Vector{});
-    for (int i = 0; i < WIDTH; ++i)
-    {
-      Four force;
-      __builtin_memcpy(&force, &forces[i], sizeof(force));
-      addTo(air.force[a[i]], force);
-      addTo(air.force[b[i]], force);
-      addTo(air.force[c[i]], force);
     }
   }
 }
