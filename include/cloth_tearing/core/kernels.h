@@ -230,7 +230,7 @@ struct Set
                          const Ball& ball, unsigned* sides);
 
   /// Puts particles below the floor onto it, but for those of inverse mass 0, and rubs.
-  /// @param[out] change of their velocities [m/s]
+  /// @param[out] change of the velocities of those that landed [m/s]
   /// @param[out] landed by tile: a bit for each of its particles that was put there
   void (*land)(float* const position[3], float* const velocity[3], const float* const start[3],
                const float* inverse_mass, const Floor& floor, float* const change[3],
