@@ -296,9 +296,9 @@ TEST(Lines, AreToldOfAStepAtWhichTheClothMayRattle)
 {
   const auto notes = [](double dt_n)
   { return hungByDefault(30, RectanglePattern::ONE_DIAGONAL, dt_n).startNotes(); };
-  EXPECT_TRUE(notes(0.3).empty());
-  ASSERT_EQ(notes(0.36).size(), 1u);
-  EXPECT_NE(notes(0.36)[0].find("may rattle"), std::string::npos);
+  EXPECT_TRUE(notes(0.22).empty());
+  ASSERT_EQ(notes(0.26).size(), 1u);
+  EXPECT_NE(notes(0.26)[0].find("may rattle and tear"), std::string::npos);
 }
 
 TEST(Lines, AreRefusedToForceSprings)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -28,6 +29,25 @@ constexpr double FAR_WINDOW = 4.0;    ///< or be so much shorter, where short ed
 
 std::map<std::string, HangingStep> known;
 std::string kept_in;
+
+/// Whether a cloth is whole at the end of SETTLING_TIME.
+bool staysWhole(EngineKind kind, const Scene& scene, double time_step)
+{
+  const std::unique_ptr<Engine> engine = makeEngine(kind, scene, time_step);
+  for (int i = 0; i < static_cast<int>(SETTLING_TIME / time_step); ++i)
+  {
+    engine->step();
+  }
+  return std::isfinite(engine->fastest());
+}
+
+/// Lines hang as stiff as stated at steps at which wind or a ball would tear them: that is no use.
+bool bearsScenes(EngineKind kind, MeshKind mesh, int side, double time_step)
+{
+  return kind != EngineKind::XPBD_LINES || mesh == MeshKind::GARMENT ||
+         (staysWhole(kind, makeScene(SceneKind::WINDY, mesh, side), time_step) &&
+          staysWhole(kind, makeScene(SceneKind::BALL, mesh, side), time_step));
+}
 
 /// The elongation of a cloth that hung for SETTLING_TIME; infinite if it does not come to rest.
 double elongationAt(EngineKind kind, const Scene& scene, double time_step)
@@ -59,13 +79,15 @@ double elongationAt(EngineKind kind, const Scene& scene, double time_step)
 }
 
 /// Halves the range from a usable to an unusable step, in logarithms.
-HangingStep bisect(EngineKind kind, const Scene& scene, double usable, double unusable, int trials)
+/// @param elongation_at of a step; infinite if it is of no use
+HangingStep bisect(const std::function<double(double)>& elongation_at, double usable,
+                   double unusable, int trials)
 {
   HangingStep found;
   for (int i = 0; i < trials; ++i)
   {
     const double middle = std::sqrt(usable * unusable);
-    const double elongation = elongationAt(kind, scene, middle);
+    const double elongation = elongation_at(middle);
     if (elongation <= MATCHED_ELONGATION)
     {
       usable = middle;
@@ -83,17 +105,23 @@ HangingStep search(EngineKind kind, MeshKind mesh, int side, const std::string& 
 {
   Scene scene = makeScene(SceneKind::HUNG, mesh, side, garment);
   scene.environment.air_friction = SETTLING_AIR;
+  const auto elongation_at = [&](double time_step)
+  {
+    const double elongation = elongationAt(kind, scene, time_step);
+    const bool good = elongation <= MATCHED_ELONGATION && bearsScenes(kind, mesh, side, time_step);
+    return good ? elongation : std::numeric_limits<double>::infinity();
+  };
   const double spacings = std::sqrt(static_cast<double>(scene.start.size()));
   if (side != FINE || mesh == MeshKind::GARMENT)
   {
-    return bisect(kind, scene, SHORTEST / spacings, LONGEST / spacings, COARSE_TRIALS);
+    return bisect(elongation_at, SHORTEST / spacings, LONGEST / spacings, COARSE_TRIALS);
   }
   const double guess = hangingStep(kind, mesh, COARSE, garment).time_step * COARSE / FINE;
   const HangingStep near =
-      bisect(kind, scene, guess / FINE_WINDOW, guess * FINE_WINDOW, FINE_TRIALS);
+      bisect(elongation_at, guess / FINE_WINDOW, guess * FINE_WINDOW, FINE_TRIALS);
   return near.time_step > 0.0
              ? near
-             : bisect(kind, scene, guess / FAR_WINDOW, guess / FINE_WINDOW, COARSE_TRIALS / 2);
+             : bisect(elongation_at, guess / FAR_WINDOW, guess / FINE_WINDOW, COARSE_TRIALS / 2);
 }
 
 void keep(const std::string& name, const HangingStep& step)
