@@ -74,12 +74,30 @@ std::string sharedParticles(const SpringLines& lines)
   return "";
 }
 
+/// Lanes without a spring that pull all the same.
+std::string strayLanes(const SpringLines& lines)
+{
+  std::string stray;
+  for (const SpringLadder& ladder : lines.ladders())
+  {
+    for (int k = 0; k < LANES * ladder.rungs(); ++k)
+    {
+      const int rung = k / LANES;
+      const int lane = k % LANES;
+      const bool pulls =
+          ladder.lanes[rung].stiffness[lane] != 0 || ladder.lanes[rung].damping[lane] != 0;
+      stray += ladder.links[rung][lane] < 0 && pulls ? " a lane pulls that has no spring" : "";
+    }
+  }
+  return stray;
+}
+
 /// Every spring lies in one lane of the lines or in the blocks, that lane is what the spring is and
-/// joins its ends, and no particle is twice in a phase.
+/// joins its ends, the others pull nothing, and no particle is twice in a phase.
 testing::AssertionResult areSound(const SpringLines& lines, const SpringBlocks& blocks,
                                   const SpringTable& springs)
 {
-  std::string wrong = sharedParticles(lines);
+  std::string wrong = sharedParticles(lines) + strayLanes(lines);
   std::map<int, int> found;
   forEachLane(lines,
               [&](const SpringLadder& ladder, int rung, int lane, int link)
