@@ -179,9 +179,11 @@ void registerSteps(const Options& options)
         const bool peer_too_slow = side > 100 && scene != SceneKind::HUNG;
         for (EngineKind engine : OWN)
         {
+          const bool lines_too_slow =
+              engine == EngineKind::XPBD_LINES && side > 300 && scene != SceneKind::HUNG;
           for (int threads : options.threads)
           {
-            if (!own_too_slow)
+            if (!own_too_slow && !lines_too_slow)
             {
               add({ engine, scene, mesh, side, threads }, {});
             }

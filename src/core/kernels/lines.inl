@@ -162,17 +162,27 @@ int sweepLadder(const Ladder& ladder, const Particles& particles, float dt, Rung
 
 using Four = float __attribute__((vector_size(16)));
 
+using FourInts = int __attribute__((vector_size(16)));
+
+#if defined(__clang__)
+#define SHUFFLED(x, y, a, b, c, d) __builtin_shufflevector(x, y, a, b, c, d)
+#else  // before version 12, gcc knows but this one
+#define SHUFFLED(x, y, a, b, c, d) __builtin_shuffle(x, y, FourInts{ a, b, c, d })
+#endif
+
 inline void transposeFour(Four& r0, Four& r1, Four& r2, Four& r3)
 {
-  const Four t0 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5);
-  const Four t1 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7);
-  const Four t2 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
-  const Four t3 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
-  r0 = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
-  r1 = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
-  r2 = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
-  r3 = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+  const Four t0 = SHUFFLED(r0, r1, 0, 4, 1, 5);
+  const Four t1 = SHUFFLED(r0, r1, 2, 6, 3, 7);
+  const Four t2 = SHUFFLED(r2, r3, 0, 4, 1, 5);
+  const Four t3 = SHUFFLED(r2, r3, 2, 6, 3, 7);
+  r0 = SHUFFLED(t0, t2, 0, 1, 4, 5);
+  r1 = SHUFFLED(t0, t2, 2, 3, 6, 7);
+  r2 = SHUFFLED(t1, t3, 0, 1, 4, 5);
+  r3 = SHUFFLED(t1, t3, 2, 3, 6, 7);
 }
+
+#undef SHUFFLED
 
 inline Four loadFour(const float* from)
 {
