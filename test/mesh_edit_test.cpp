@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <set>
 
 #include "cloth_tearing/core/mesh.h"
 #include "small_meshes.h"
@@ -74,33 +73,6 @@ bool sharesSpring(const Mesh& mesh, TriangleId a, TriangleId b)
     }
   }
   return false;
-}
-
-/// Whether `touched` holds every triangle whose corners, springs or neighbours differ.
-testing::AssertionResult touchesAllThatChanged(const Mesh& before, const Mesh& after,
-                                               const std::vector<TriangleId>& touched)
-{
-  const std::set<TriangleId> listed(touched.begin(), touched.end());
-  if (listed.size() != touched.size())
-  {
-    return testing::AssertionFailure() << "a touched triangle is listed twice";
-  }
-  for (int i = 0; i < after.triangleCount(); ++i)
-  {
-    const TriangleId t{ i };
-    bool changed = i >= before.triangleCount();
-    if (!changed)
-    {
-      const Triangle& now = after.triangle(t);
-      const Triangle& then = before.triangle(t);
-      changed = now.particles != then.particles || now.springs != then.springs;
-    }
-    if (changed && listed.count(t) == 0)
-    {
-      return testing::AssertionFailure() << "triangle " << i << " changed and is not listed";
-    }
-  }
-  return testing::AssertionSuccess();
 }
 
 // -- splitSpring ---------------------------------------------------------------------------------

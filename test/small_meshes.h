@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -285,6 +286,33 @@ inline testing::AssertionResult isSame(const Mesh& a, const Mesh& b)
     if (a.trianglesAt({ i }) != b.trianglesAt({ i }))
     {
       return testing::AssertionFailure() << "the triangles at particle " << i << " differ";
+    }
+  }
+  return testing::AssertionSuccess();
+}
+
+/// Whether `touched` holds every triangle whose corners, springs or neighbours differ.
+inline testing::AssertionResult touchesAllThatChanged(const Mesh& before, const Mesh& after,
+                                                      const std::vector<TriangleId>& touched)
+{
+  const std::set<TriangleId> listed(touched.begin(), touched.end());
+  if (listed.size() != touched.size())
+  {
+    return testing::AssertionFailure() << "a touched triangle is listed twice";
+  }
+  for (int i = 0; i < after.triangleCount(); ++i)
+  {
+    const TriangleId t{ i };
+    bool changed = i >= before.triangleCount();
+    if (!changed)
+    {
+      const Triangle& now = after.triangle(t);
+      const Triangle& then = before.triangle(t);
+      changed = now.particles != then.particles || now.springs != then.springs;
+    }
+    if (changed && listed.count(t) == 0)
+    {
+      return testing::AssertionFailure() << "triangle " << i << " changed and is not listed";
     }
   }
   return testing::AssertionSuccess();
