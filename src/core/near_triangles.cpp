@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cloth_tearing/core/spring_lanes.h"
+
 namespace cloth
 {
 namespace
@@ -108,7 +110,7 @@ void NearTriangles::lookAtTriangles(const Cloth& cloth, int tile)
                        sides_[p[0].index] & sides_[p[1].index] & sides_[p[2].index];
                    if ((beyond & BOX) == 0 && !cloth.damage.at_rest[p[0].index])
                    {
-                     found_[t.index / BITS] |= std::uint64_t(1) << (t.index % BITS);
+                     found_[t.index / BITS] |= bitOf(t.index % BITS);
                    }
                  });
 }
@@ -132,7 +134,7 @@ void NearTriangles::collect()
   {
     for (std::uint64_t bits = found_[word]; bits != 0; bits &= bits - 1)
     {
-      all_.push_back({ static_cast<int>(word) * BITS + __builtin_ctzll(bits) });
+      all_.push_back({ static_cast<int>(word) * BITS + lowestBit(bits) });
     }
     found_[word] = 0;
   }

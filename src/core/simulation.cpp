@@ -466,6 +466,7 @@ void Simulation::startOver(const std::string& why)
   grippers_.releaseAll(cloth_, why);
   publish();
   cloth_ = untorn_;
+  tearing_ = Tearing(params_.tearing);  // counts of tears come again
   outer_.startOver();
   contact_.startOver();
   makeSolver();

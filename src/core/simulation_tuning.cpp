@@ -224,7 +224,6 @@ void Simulation::takeCloth(Simulation other)
   untorn_ = std::move(other.untorn_);
   start_stability_ = other.start_stability_;
   workers_ = std::move(other.workers_);
-  tearing_ = Tearing(params_.tearing);
   loose_pieces_ = {};
   contact_ = {};
   startOver("another cloth was put in its place");

@@ -274,6 +274,8 @@ int SpringLines::addLadder(SpringLadder ladder, int rungs)
 {
   ladder.lanes.assign(rungs, noLanes());
   ladder.links.assign(rungs, noLinks());
+  longest_ = std::max(longest_, rungs + 1);
+  longest_copied_ = ladder.sideBySide() ? longest_copied_ : std::max(longest_copied_, rungs + 1);
   ladders_.push_back(std::move(ladder));
   return static_cast<int>(ladders_.size()) - 1;
 }

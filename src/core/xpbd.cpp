@@ -55,11 +55,13 @@ struct LineScratch
   std::vector<kernels::Node> nodes;  ///< where particles do not lie side by side
 };
 
-LineScratch& lineScratch(const SpringLadder& ladder)
+/// Makes room for all ladders at once: a thread meets the longest at any time.
+LineScratch& lineScratch(const SpringLines& lines)
 {
   thread_local LineScratch scratch;
-  const auto nodes = static_cast<std::size_t>(ladder.nodes());
-  scratch.rungs.resize(std::max(scratch.rungs.size(), nodes));
+  const auto rungs = static_cast<std::size_t>(lines.longest());
+  const auto nodes = static_cast<std::size_t>(lines.longestCopied());
+  scratch.rungs.resize(std::max(scratch.rungs.size(), rungs));
   scratch.nodes.resize(std::max(scratch.nodes.size(), nodes));
   return scratch;
 }
@@ -167,11 +169,11 @@ void XpbdSolver::solve(const SpringGroup& group, Scratch& scratch, const Particl
 }
 
 void XpbdSolver::solve(const SpringLadder& ladder, Notes& notes, const Particles& particles,
-                       float dt)
+                       float dt) const
 {
   const kernels::Set& loops = kernels::best();
   const auto rungs = static_cast<std::size_t>(ladder.rungs());
-  LineScratch& scratch = lineScratch(ladder);
+  LineScratch& scratch = lineScratch(lines());
   if (ladder.sideBySide())
   {
     notes.count = loops.sweep_ladder(

@@ -24,6 +24,7 @@ public:
 
 protected:
   bool inLines() const { return in_lines_; }
+  const SpringLines& lines() const { return lines_; }
 
   /// Notes of blocks; its room only grows.
   struct Notes

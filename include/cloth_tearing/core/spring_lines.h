@@ -81,6 +81,10 @@ public:
   const std::vector<SpringLadder>& ladders() const { return ladders_; }
   const std::vector<int>& phases() const { return phases_; }
 
+  /// Nodes of the longest ladder, and of the longest of those that work on copies.
+  int longest() const { return longest_; }
+  int longestCopied() const { return longest_copied_; }
+
 private:
   /// Where a spring lies.
   struct Place
@@ -108,6 +112,8 @@ private:
   std::vector<SpringLadder> ladders_;
   std::vector<int> phases_ = { 0 };
   std::vector<Place> places_;  ///< by SpringId
+  int longest_ = 0;
+  int longest_copied_ = 0;
   Real watched_ = std::numeric_limits<Real>::max();
 };
 

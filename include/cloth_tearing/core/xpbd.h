@@ -30,8 +30,8 @@ private:
   void finish(ParticleState& state, Range range, float dt) const;
   static void solve(const SpringGroup& group, Scratch& scratch, const kernels::Particles& particles,
                     float dt);
-  static void solve(const SpringLadder& ladder, Notes& notes, const kernels::Particles& particles,
-                    float dt);
+  void solve(const SpringLadder& ladder, Notes& notes, const kernels::Particles& particles,
+             float dt) const;
 
   Vec3Array way_;  ///< of each particle since the step began [m]
 };

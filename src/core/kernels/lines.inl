@@ -4,6 +4,9 @@
 
 constexpr int VECTORS = LANES / WIDTH;
 
+/// The smallest number that is not subnormal.
+constexpr float SMALLEST = 0x1p-126f;
+
 /// Particles of a node, as many as a register has.
 struct Places
 {
@@ -61,7 +64,7 @@ inline unsigned climb(Climb& below, const Places& next, const Lanes& lanes, int 
   const Vector share = below.give * coupling * below.inverse;
   const Vector answer = give * coupling;
   const Vector pivot = squared * (give * (below.at.w + next.w) + 1.0f) - answer * share;
-  const Vector inverse = pivot > zero ? 1.0f / pivot : zero;
+  const Vector inverse = pivot > zero + SMALLEST ? 1.0f / pivot : zero;  // never infinite
   const Vector pull =
       (stiffness * stretch + damping * dot(d, moved) + answer * below.pull) * inverse;
   if (before != nullptr)
@@ -196,10 +199,11 @@ inline void storeFour(float* to, Four values)
   __builtin_memcpy(to, &values, sizeof(values));
 }
 
-/// One number of four particles that follow one another in each of four lanes, to four nodes.
-/// @param to of the first node; STRIDE further for each next one
+/// From a number of one node to that of the next.
 constexpr int STRIDE = sizeof(Node) / sizeof(float);
 
+/// One number of four particles that follow one another in each of four lanes, to four nodes.
+/// @param to of the first node
 inline void packRows(const float* from, const int* particle, float* to)
 {
   Four r0 = loadFour(from + particle[0]);
