@@ -14,6 +14,7 @@
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/spring_blocks.h"
 #include "small_meshes.h"
+#include "sweep_motion.h"
 
 namespace cloth
 {
@@ -235,39 +236,6 @@ TEST(SpringBlocks, OfOnePhaseTouchNoParticleInCommon)
 
 // -- the loops
 // -------------------------------------------------------------------------------------
-
-/// Particles that a sweep works on.
-struct Motion
-{
-  std::vector<float> way[3];
-  std::vector<float> start[3];
-  std::vector<float> held[3];
-  std::vector<float> inverse_mass;
-
-  explicit Motion(const Cloth& cloth, std::uint64_t seed)
-  {
-    std::mt19937_64 random(seed);
-    const auto small = [&random] { return 1e-3F * (float(random() % 2001) - 1000.0F) / 1000.0F; };
-    for (int i = 0; i < cloth.state.size(); ++i)
-    {
-      for (int k = 0; k < 3; ++k)
-      {
-        way[k].push_back(small());
-        start[k].push_back(cloth.state.position[i][k] + small());
-        held[k].push_back(0.0F);
-      }
-      inverse_mass.push_back(random() % 20 == 0 ? 0.0F : 100.0F + float(random() % 100));
-    }
-  }
-
-  kernels::Particles particles()
-  {
-    return { { way[0].data(), way[1].data(), way[2].data() },
-             { start[0].data(), start[1].data(), start[2].data() },
-             inverse_mass.data(),
-             { held[0].data(), held[1].data(), held[2].data() } };
-  }
-};
 
 /// Everything that a sweep over all blocks leaves behind, bit for bit.
 std::vector<unsigned> sweep(const kernels::Set& loops, const SpringBlocks& blocks, Motion motion)
