@@ -377,15 +377,7 @@ std::vector<unsigned> sweep(const kernels::Set& loops, const SpringLines& lines,
       left.push_back(notes[i].lanes);
     }
   }
-  for (int k = 0; k < 3; ++k)
-  {
-    for (const std::vector<float>* values : { &motion.way[k], &motion.held[k] })
-    {
-      const std::size_t before = left.size();
-      left.resize(before + values->size());
-      std::memcpy(&left[before], values->data(), values->size() * sizeof(float));
-    }
-  }
+  motion.appendTo(left);
   return left;
 }
 

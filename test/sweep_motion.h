@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -32,6 +33,20 @@ struct Motion
         held[k].push_back(0.0F);
       }
       inverse_mass.push_back(random() % 20 == 0 ? 0.0F : 100.0F + float(random() % 100));
+    }
+  }
+
+  /// Appends the bits that a sweep may have written.
+  void appendTo(std::vector<unsigned>& bits) const
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      for (const std::vector<float>* values : { &way[k], &held[k] })
+      {
+        const std::size_t before = bits.size();
+        bits.resize(before + values->size());
+        std::memcpy(&bits[before], values->data(), values->size() * sizeof(float));
+      }
     }
   }
 

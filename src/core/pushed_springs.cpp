@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cloth_tearing/core/sort_once.h"
+
 namespace cloth
 {
 namespace
@@ -43,8 +45,7 @@ const std::vector<int>& PushedSprings::find(const Cloth& cloth, const std::vecto
   {
     addAt(cloth, pushed, limit);
   }
-  std::sort(springs_.begin(), springs_.end());
-  springs_.erase(std::unique(springs_.begin(), springs_.end()), springs_.end());
+  sortOnce(springs_);
   return springs_;
 }
 

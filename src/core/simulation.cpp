@@ -11,6 +11,7 @@
 #include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/kernels.h"
 #include "cloth_tearing/core/snapshot_taker.h"
+#include "cloth_tearing/core/sort_once.h"
 #include "cloth_tearing/core/state_hash.h"
 
 namespace cloth
@@ -70,14 +71,6 @@ public:
 private:
   StepObserver* observer_;
 };
-
-/// Sorts `ids` and leaves each once.
-template <class Id>
-void sortOnce(std::vector<Id>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 /// Springs of the triangles round held particles and their neighbours, each once.
 std::vector<SpringId> springsNear(const Mesh& mesh, const Grasp& grasp)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cloth_tearing/core/sort_once.h"
+
 namespace cloth
 {
 namespace
@@ -12,13 +14,6 @@ int homeOf(const Triangle& triangle)
 {
   const auto& p = triangle.particles;
   return TriangleTiles::tileOf(std::min({ p[0].index, p[1].index, p[2].index }));
-}
-
-/// Sorts `ids` and leaves each once.
-void sortOnce(std::vector<int>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 }  // namespace

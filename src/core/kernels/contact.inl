@@ -109,6 +109,7 @@ void land(float* const position[3], float* const velocity[3], const float* const
       }
       landed[tile] |= bitsOf(lands) << r;
       const End v = loadEnd(velocity, i);
+      // Products with the floor's normal, zeros and all: what is no number on one axis stays none.
       const Vector approach = -(v.x * 0.0f + (v.y * 0.0f + v.z));
       const Vector slip_x = v.x + approach * 0.0f;
       const Vector slip_y = v.y + approach * 0.0f;
