@@ -44,6 +44,14 @@ TEST(Checks, NameFieldValueAndLimit)
   EXPECT_EQ(judged(-6.0, Range::atLeast(-5.0)), Sentences{ "size [m] is -6, must be at least -5" });
 }
 
+TEST(Checks, TellAValueFromTheLimitThatItMisses)
+{
+  EXPECT_EQ(judged(1000001.0, Range::between(0.0, 1000000.0)),
+            Sentences{ "size [m] is 1000001, must be at least 0 and at most 1e+06" });
+  EXPECT_EQ(judged(1.0 + 1.0 / 1048576, Range::between(0.0, 1.0)),
+            Sentences{ "size [m] is 1.0000009536743164, must be at least 0 and at most 1" });
+}
+
 TEST(Checks, LetNothingPassThatIsNotFinite)
 {
   for (double value : { NOT_A_NUMBER, INFINITE, -INFINITE })
@@ -99,6 +107,24 @@ TEST(Refusals, CollectAllProblemsOneALine)
   catch (const Refusal& refusal)
   {
     EXPECT_STREQ(refusal.what(), "one\ntwo");
+  }
+}
+
+TEST(Refusals, TellTheFirstTwentyProblemsAndHowManyMore)
+{
+  try
+  {
+    refuseIf(Sentences(23, "one"));
+    FAIL() << "must be refused";
+  }
+  catch (const Refusal& refusal)
+  {
+    std::string expected;
+    for (int i = 0; i < 20; ++i)
+    {
+      expected += "one\n";
+    }
+    EXPECT_EQ(refusal.what(), expected + "and 3 more");
   }
 }
 

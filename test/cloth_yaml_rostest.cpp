@@ -73,6 +73,8 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_EQ(shipped.paused, compiled.paused);
   EXPECT_EQ(shipped.publish_clock, compiled.publish_clock);
   EXPECT_EQ(shipped.clock_rate, compiled.clock_rate);
+  EXPECT_EQ(shipped.max_model_file, compiled.max_model_file);
+  EXPECT_EQ(shipped.max_commands, compiled.max_commands);
   EXPECT_EQ(shipped.tf_patience, compiled.tf_patience);
   EXPECT_EQ(shipped.command_patience, compiled.command_patience);
   EXPECT_EQ(shipped.states.folder, compiled.states.folder);
@@ -143,6 +145,10 @@ TEST(ClothYaml, SaysTheDefaultsOfThePhysics)
   EXPECT_EQ(shipped.runaway_strain, compiled.runaway_strain);
   EXPECT_EQ(shipped.threads, compiled.threads);
   EXPECT_EQ(shipped.tear_log_size, compiled.tear_log_size);
+  EXPECT_EQ(shipped.limits.particles, compiled.limits.particles);
+  EXPECT_EQ(shipped.limits.triangles, compiled.limits.triangles);
+  EXPECT_EQ(shipped.limits.spheres, compiled.limits.spheres);
+  EXPECT_EQ(shipped.limits.grasps, compiled.limits.grasps);
 
   EXPECT_EQ(shipped.material.areal_density, compiled.material.areal_density);
   EXPECT_EQ(shipped.material.stiffness, compiled.material.stiffness);

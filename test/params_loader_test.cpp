@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "cloth_tearing/node/limit_words.h"
 #include "cloth_tearing/node/params_loader.h"
 
 using cloth_tearing::loadParams;
@@ -430,4 +431,24 @@ TEST(InClothFrame, TurnsTheStrengthMapWithTheModel)
   EXPECT_EQ(cloth::springStrengths(mesh, placed.model.positions, simulation.strength),
             cloth::springStrengths(mesh, cloth::rectangle(params.rectangle).positions,
                                    params.simulation.strength));
+}
+
+TEST(LimitWords, TellEachLimitAndHowFarItMayBeRaised)
+{
+  cloth_tearing::NodeParams params;
+  params.max_model_file = 2.5;
+  params.simulation.limits.spheres = 7;
+
+  const std::string words = cloth_tearing::limitsInWords(params);
+
+  for (const std::string& name : cloth_tearing::parameterNames())
+  {
+    if (name.rfind("limits/", 0) == 0)
+    {
+      EXPECT_NE(words.find("\n  " + name), std::string::npos) << name << " is not among:\n"
+                                                              << words;
+    }
+  }
+  EXPECT_NE(words.find("\n  limits/spheres: 7 of 1000\n"), std::string::npos) << words;
+  EXPECT_NE(words.find("\n  limits/model_file [MB]: 2.5 of 1000\n"), std::string::npos) << words;
 }

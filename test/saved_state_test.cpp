@@ -628,6 +628,7 @@ INSTANTIATE_TEST_SUITE_P(AllSolvers, SavedStateBytesOf,
 const std::set<std::string> LEFT_OUT = {
   "max_grasp_distance of params",
   "tear_log_size of params",
+  "limits of params",
   "life of params",
   "place of params",
   "news of grippers",

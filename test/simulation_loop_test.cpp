@@ -594,14 +594,14 @@ TEST(LoopEnd, GivesBusyToWhoeverWaitsForSteps)
 
 TEST(Queue, RefusesOnceItIsClosed)
 {
-  CommandQueue<int> queue;
+  CommandQueue<int> queue(10);
   queue.close();
   EXPECT_THROW(queue.call([](int&) {}, milliseconds(1)), Busy);
 }
 
 TEST(Queue, AnswersBusyAtOnceToThoseWhoWaitWhenItCloses)
 {
-  CommandQueue<int> queue;
+  CommandQueue<int> queue(10);
   std::atomic<bool> calling{ false };
   auto call = std::async(std::launch::async,
                          [&]
@@ -616,7 +616,7 @@ TEST(Queue, AnswersBusyAtOnceToThoseWhoWaitWhenItCloses)
 
 TEST(Queue, WakesItsOwnerForACommand)
 {
-  CommandQueue<int> queue;
+  CommandQueue<int> queue(10);
   int target = 41;
   auto call = std::async(std::launch::async,
                          [&] { return queue.call([](int& t) { return ++t; }, DEADLINE); });

@@ -302,7 +302,7 @@ TEST(ThrownSpheres, AreRefusedWhenThereAreAThousand)
   catch (const Refusal& refusal)
   {
     EXPECT_STREQ(refusal.what(),
-                 "there are 1000 spheres, must be less than 1000 for one to be thrown");
+                 "there would be 1001 spheres, must be at most limits/spheres = 1000");
   }
   EXPECT_EQ(simulation.spheres().size(), 1000u);
 }

@@ -26,21 +26,40 @@ std::string limits(const Range& range)
   return words;
 }
 
-}  // namespace
-
-std::string text(double value)
+std::string digits(double value, int most)
 {
   if (std::isnan(value))
   {
     return "nan";  // of either sign
   }
   char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  std::snprintf(buffer, sizeof buffer, "%.*g", most, value);
   for (char& c : buffer)
   {
     c = c == ',' ? '.' : c;  // whatever the locale of the process is
   }
   return buffer;
+}
+
+/// As short as it does not look like a limit that it is not.
+std::string textBeside(double value, const Range& range)
+{
+  const std::string plain = text(value);
+  for (const double limit : { range.low, range.high })
+  {
+    if (value != limit && plain == text(limit))
+    {
+      return digits(value, 17);
+    }
+  }
+  return plain;
+}
+
+}  // namespace
+
+std::string text(double value)
+{
+  return digits(value, 6);
 }
 
 void check(std::vector<std::string>& found, const std::string& field, double value,
@@ -50,7 +69,7 @@ void check(std::vector<std::string>& found, const std::string& field, double val
   const bool high_enough = range.above_low ? value > range.low : value >= range.low;
   if (!std::isfinite(value) || !low_enough || !high_enough)
   {
-    found.push_back(field + " is " + text(value) + ", " + limits(range));
+    found.push_back(field + " is " + textBeside(value, range) + ", " + limits(range));
   }
 }
 

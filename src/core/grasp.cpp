@@ -122,8 +122,9 @@ std::vector<std::string> problems(const DragTarget& target)
   std::vector<std::string> found;
   check(found, "target position [m]", target.pose.position, MAX_COORDINATE);
   check(found, "target orientation", target.pose.rotation);
-  check(found, "linear_speed [m/s]", target.linear_speed, Range::aboveUpTo(0.0, 100.0));
-  check(found, "angular_speed [rad/s]", target.angular_speed, Range::aboveUpTo(0.0, 100.0));
+  check(found, "linear_speed [m/s]", target.linear_speed, Range::aboveUpTo(0.0, MAX_GRIPPER_SPEED));
+  check(found, "angular_speed [rad/s]", target.angular_speed,
+        Range::aboveUpTo(0.0, MAX_GRIPPER_TURN));
   return found;
 }
 

@@ -14,9 +14,7 @@ namespace cloth
 namespace
 {
 
-constexpr double MOST_FORCE = 1e6;          ///< [N]
 constexpr double MOST_GLIDE_TIME = 3600.0;  ///< [s]
-constexpr int MOST_TEARS = 1000000000;
 
 /// The particles that a grasp takes, and how far the nearest free one is [m].
 std::vector<ParticleId> within(const Cloth& cloth, const GraspRequest& request, double max_distance,
@@ -89,7 +87,7 @@ GraspTaken Grippers::take(Cloth& cloth, const GraspRequest& request, double max_
     check(found, "frame position [m]", request.frame.position, MAX_COORDINATE);
   }
   check(found, "frame orientation", request.frame.rotation);
-  check(found, "force_limit [N]", request.force_limit, Range::between(0.0, MOST_FORCE));
+  check(found, "force_limit [N]", request.force_limit, Range::between(0.0, MAX_FORCE));
   refuseIf(found);
 
   GraspTaken taken;
@@ -259,8 +257,8 @@ std::uint64_t Grippers::pull(const PullRequest& request, std::uint64_t next_tear
 {
   Grasp& pulled = free(request.grasp);
   std::vector<std::string> found = problems(request.target);
-  check(found, "stop_force [N]", request.stop_force, Range::between(0.0, MOST_FORCE));
-  check(found, "stop_tears", request.stop_tears, Range::between(0, MOST_TEARS));
+  check(found, "stop_force [N]", request.stop_force, Range::between(0.0, MAX_FORCE));
+  check(found, "stop_tears", request.stop_tears, Range::between(0, MAX_STOP_TEARS));
   refuseIf(found);
   drag(request.grasp, request.target);
   PullUnderWay pull;

@@ -23,7 +23,6 @@ constexpr double MAX_SIZE = 1000;   // [m]
 constexpr double MIN_GRADING = 0.2;
 constexpr double MAX_GRADING = 5;
 constexpr double MAX_JITTER = 0.5;  // of the local spacing
-constexpr std::int64_t MAX_PARTICLES = 1000000;
 
 // After ten rounds of random moves hardly anything of the grid's directions is left.
 constexpr int JITTER_ROUNDS = 10;

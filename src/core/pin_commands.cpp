@@ -13,8 +13,6 @@ namespace cloth
 namespace
 {
 
-constexpr std::size_t MOST_PARTICLES = 100000;
-
 /// The particles within the ball, but those at rest.
 /// @throws Refusal if there are none
 std::vector<int> withinBall(const Cloth& cloth, const PinRequest& request)
@@ -47,10 +45,10 @@ std::vector<int> named(const Cloth& cloth, const PinRequest& request)
   std::vector<std::string> found;
   check(found, "point [m]", request.point, MAX_COORDINATE);
   check(found, "radius [m]", request.radius, Range::between(0.0, MAX_COORDINATE));
-  if (request.particles.size() > MOST_PARTICLES)
+  if (request.particles.size() > MAX_NAMED_PARTICLES)
   {
     found.push_back("there are " + std::to_string(request.particles.size()) +
-                    " particles, must be at most " + std::to_string(MOST_PARTICLES));
+                    " particles, must be at most " + std::to_string(MAX_NAMED_PARTICLES));
   }
   refuseIf(found);
   if (request.radius == 0.0 && request.particles.empty())

@@ -3,6 +3,12 @@
 
 namespace cloth
 {
+namespace
+{
+
+constexpr std::size_t MOST_SHOWN = 20;
+
+}  // namespace
 
 void refuseIf(const std::vector<std::string>& problems)
 {
@@ -11,9 +17,13 @@ void refuseIf(const std::vector<std::string>& problems)
     return;
   }
   std::string all = problems.front();
-  for (std::size_t i = 1; i < problems.size(); ++i)
+  for (std::size_t i = 1; i < problems.size() && i < MOST_SHOWN; ++i)
   {
     all += "\n" + problems[i];
+  }
+  if (problems.size() > MOST_SHOWN)
+  {
+    all += "\nand " + std::to_string(problems.size() - MOST_SHOWN) + " more";
   }
   throw Refusal(all);
 }

@@ -73,6 +73,19 @@ ArchiveReader opened(const std::string& bytes)
   return reader;
 }
 
+void refuseBeyond(const Limits& limits, const Mesh& untorn, std::size_t grasps, std::size_t spheres)
+{
+  const auto count = [](int number) { return static_cast<std::size_t>(number); };
+  std::vector<std::string> found;
+  checkCount(found, "particles", count(untorn.particleCount()), "limits/particles",
+             limits.particles);
+  checkCount(found, "triangles", count(untorn.triangleCount()), "limits/triangles",
+             limits.triangles);
+  checkCount(found, "grasps", grasps, "limits/grasps", limits.grasps);
+  checkCount(found, "spheres", spheres, "limits/spheres", limits.spheres);
+  refuseIf(found);
+}
+
 }  // namespace
 
 std::string Simulation::save() const
@@ -114,6 +127,8 @@ Simulation Simulation::restored(const std::string& bytes) const
   reader("state", next);
   reader.expectEnd();
   refuseIf(problems(next.params_));
+  refuseBeyond(next.params_.limits, next.untorn_.mesh, next.grippers_.all().size(),
+               next.spheres_.all().size());
   refuseUnsound(next.untorn_, "untorn");
   refuseUnsound(next.cloth_, "cloth");
   refuseUnsound(next.cloth_, next.solver_->memory(), next.params_.solver);

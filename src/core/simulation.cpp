@@ -106,6 +106,17 @@ const SimulationParams& checked(const SimulationParams& params)
   return params;
 }
 
+const ClothModel& fitting(const ClothModel& model, const Limits& limits)
+{
+  std::vector<std::string> found;
+  checkCount(found, "particles of the model", model.positions.size(), "limits/particles",
+             limits.particles);
+  checkCount(found, "triangles of the model", model.triangles.size(), "limits/triangles",
+             limits.triangles);
+  refuseIf(found);
+  return model;
+}
+
 }  // namespace
 
 std::vector<std::string> problems(const SimulationParams& params)
@@ -120,20 +131,23 @@ std::vector<std::string> problems(const SimulationParams& params)
   check(found, "max_grasp_distance [m]", params.max_grasp_distance,
         Range::aboveUpTo(0.0, MAX_COORDINATE));
   check(found, "grasp_force_filter [s]", params.grasp_force_filter, Range::between(0.0, 10.0));
-  check(found, "max_gripper_speed [m/s]", params.max_gripper_speed, Range::aboveUpTo(0.0, 100.0));
-  check(found, "max_gripper_turn [rad/s]", params.max_gripper_turn, Range::aboveUpTo(0.0, 100.0));
-  check(found, "max_speed [m/s]", params.max_speed, Range::aboveUpTo(0.0, 1e4));
+  check(found, "max_gripper_speed [m/s]", params.max_gripper_speed,
+        Range::aboveUpTo(0.0, MAX_GRIPPER_SPEED));
+  check(found, "max_gripper_turn [rad/s]", params.max_gripper_turn,
+        Range::aboveUpTo(0.0, MAX_GRIPPER_TURN));
+  check(found, "max_speed [m/s]", params.max_speed, Range::aboveUpTo(0.0, MAX_PARTICLE_SPEED));
   check(found, "runaway_strain [-]", params.runaway_strain, Range::aboveUpTo(0.0, 1e4));
   check(found, "threads", params.threads, Range::between(0, 256));
-  check(found, "tear_log_size", params.tear_log_size, Range::between(1, 10000000));
+  check(found, "tear_log_size", params.tear_log_size, Range::between(1, MAX_EVENTS_LOGGED));
+  append(found, problems(params.limits));
   return found;
 }
 
 Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
                        const SimulationParams& params)
     : params_(checked(params))
-    , untorn_(makeCloth(model, pinned, params.material, params.rest_shape, params.tearing.hem_width,
-                        params.strength))
+    , untorn_(makeCloth(fitting(model, params.limits), pinned, params.material, params.rest_shape,
+                        params.tearing.hem_width, params.strength))
     , cloth_(untorn_)
     , solver_(params.solver)
     , tearing_(params.tearing)
@@ -478,6 +492,9 @@ void Simulation::startOver(const std::string& why)
 
 GraspTaken Simulation::grasp(const GraspRequest& request)
 {
+  std::vector<std::string> found;
+  checkCount(found, "grasps", grippers_.all().size() + 1, "limits/grasps", params_.limits.grasps);
+  refuseIf(found);
   keepBalance();
   const GraspTaken taken = grippers_.take(cloth_, request, params_.max_grasp_distance);
   publish();
@@ -587,7 +604,19 @@ void Simulation::moveSphere(std::uint64_t id, const Vec3d& center, double time)
 
 void Simulation::setSpheres(const std::vector<Sphere>& spheres)
 {
+  std::vector<std::string> found;
+  checkCount(found, "spheres", spheres.size() + spheres_.count(SphereSource::THROWN),
+             "limits/spheres", params_.limits.spheres);
+  refuseIf(found);
   spheres_.set(spheres, params_.contact, params_.solver.time_step);
+}
+
+std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
+{
+  std::vector<std::string> found;
+  checkCount(found, "spheres", spheres_.all().size() + 1, "limits/spheres", params_.limits.spheres);
+  refuseIf(found);
+  return spheres_.throwOne(request);
 }
 
 void Simulation::holdSphere(SphereSource source, std::uint64_t id, const Vec3d& center)
@@ -603,7 +632,7 @@ void Simulation::letGoOfSphere(SphereSource source, std::uint64_t id)
 std::uint64_t Simulation::throwAtCloth(SphereSource source, std::uint64_t id, double speed)
 {
   std::vector<std::string> found;
-  check(found, "speed [m/s]", speed, Range::aboveUpTo(0.0, MAX_COORDINATE));
+  check(found, "speed [m/s]", speed, Range::aboveUpTo(0.0, MAX_SPHERE_SPEED));
   refuseIf(found);
   const Vec3d way = cloth_.center() - spheres_.find(source, id).center;
   if (way.isZero(0.0))

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "cloth_tearing/core/checks.h"
+
 namespace cloth
 {
 namespace
@@ -25,6 +27,7 @@ const SimulationLoop::Options& checked(const SimulationLoop::Options& options)
   }
   std::vector<std::string> found;
   checkSpeed(found, options.speed);
+  check(found, "max_commands", options.max_commands, Range::between(1, MAX_COMMANDS));
   if (!found.empty())
   {
     throw std::invalid_argument(found.front());
@@ -39,6 +42,7 @@ SimulationLoop::SimulationLoop(std::unique_ptr<Simulation> simulation, const Opt
     : options_(checked(options))
     , listener_(std::move(listener))
     , simulation_(std::move(simulation))
+    , queue_(static_cast<std::size_t>(options.max_commands))
     , paused_(options.paused)
     , speed_(options.speed)
     , pacer_(options.speed, Clock::now())

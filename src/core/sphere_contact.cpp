@@ -366,7 +366,8 @@ std::vector<std::string> problems(const ContactParams& params)
                       text(params.bounds_max[i]));
     }
   }
-  check(found, "max_sphere_speed [m/s]", params.max_sphere_speed, Range::aboveUpTo(0.0, 1000.0));
+  check(found, "max_sphere_speed [m/s]", params.max_sphere_speed,
+        Range::aboveUpTo(0.0, MAX_SPHERE_SPEED));
   check(found, "sphere_timeout [s]", params.sphere_timeout, Range::between(0.0, 1e6));
   return found;
 }
@@ -376,7 +377,7 @@ std::vector<std::string> problems(const Sphere& sphere)
   std::vector<std::string> found;
   const std::string name = "sphere " + std::to_string(sphere.id) + ": ";
   check(found, name + "center [m]", sphere.center, MAX_COORDINATE);
-  check(found, name + "velocity [m/s]", sphere.velocity, 1000.0);
+  check(found, name + "velocity [m/s]", sphere.velocity, MAX_SPHERE_SPEED);
   check(found, name + "radius [m]", sphere.radius, Range::between(1e-4, 100.0));
   check(found, name + "mass [kg]", sphere.mass, Range::between(0.0, 1e6));
   return found;

@@ -13,9 +13,6 @@ namespace cloth
 namespace
 {
 
-/// Thrown spheres wait until there are fewer, streamed ones included.
-constexpr std::size_t MOST_SPHERES = 1000;
-
 /// Lets a sphere go to `center` [m] in `time` [s], unless that is no motion any more: then it is
 /// placed there anew.
 void send(Sphere& sphere, const Vec3d& center, double time, const ContactParams& params)
@@ -99,6 +96,13 @@ std::vector<Sphere>::const_iterator SphereSet::seek(SphereSource source, std::ui
                       [source, id](const Sphere& s) { return s.source == source && s.id == id; });
 }
 
+std::size_t SphereSet::count(SphereSource source) const
+{
+  return static_cast<std::size_t>(std::count_if(spheres_.begin(), spheres_.end(),
+                                                [source](const Sphere& sphere)
+                                                { return sphere.source == source; }));
+}
+
 const Sphere& SphereSet::find(SphereSource source, std::uint64_t id) const
 {
   const auto found = seek(source, id);
@@ -139,12 +143,6 @@ std::uint64_t SphereSet::throwOne(const ThrowRequest& request)
   sphere.time_left = request.lifetime;
   std::vector<std::string> found = problems(sphere);
   check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, 1e6));
-  if (spheres_.size() >= MOST_SPHERES)
-  {
-    found.push_back("there are " + std::to_string(spheres_.size()) +
-                    " spheres, must be less than " + std::to_string(MOST_SPHERES) +
-                    " for one to be thrown");
-  }
   refuseIf(found);
   spheres_.push_back(sphere);
   return next_thrown_++;

@@ -24,7 +24,8 @@ std::vector<std::string> problems(const TearRules& rules)
   check(found, "crack_length [m]", rules.crack_length, Range::between(0.0, 10.0));
   check(found, "hem_factor [-]", rules.hem_factor, Range::between(1.0, 1000.0));
   check(found, "hem_width [m]", rules.hem_width, Range::between(0.0, 100.0));
-  check(found, "max_tears_per_step", rules.max_tears_per_step, Range::between(1, 100000));
+  check(found, "max_tears_per_step", rules.max_tears_per_step,
+        Range::between(1, MAX_TEARS_PER_STEP));
   check(found, "min_length [-]", rules.min_length, Range::aboveUpTo(0.0, 0.5));
   check(found, "min_altitude [-]", rules.min_altitude, Range::aboveUpTo(0.0, 0.5));
   return found;

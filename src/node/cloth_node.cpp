@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cloth_tearing/core/kernels.h"
+#include "cloth_tearing/node/limit_words.h"
 
 namespace cloth_tearing
 {
@@ -44,6 +45,7 @@ cloth::SimulationLoop::Options loopOptions(const NodeParams& params, FrameFollow
   options.paused = params.paused;
   options.speed = params.speed;
   options.patience = std::chrono::milliseconds(static_cast<int>(1000.0 * params.command_patience));
+  options.max_commands = params.max_commands;
   options.clock = rosTime;
   options.before_step = [&follower](cloth::Simulation& simulation)
   { follower.beforeStep(simulation); };
@@ -94,6 +96,7 @@ std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params,
     ROS_WARN_STREAM(note);
   }
   tellHowItIsComputed(*simulation);
+  ROS_INFO_STREAM(limitsInWords(params));
   return simulation;
 }
 

@@ -12,7 +12,8 @@ namespace
 {
 
 constexpr std::uint32_t TEAR_QUEUE = 1000;
-constexpr std::chrono::seconds IDLE(1);  // nobody listens: who comes wakes the thread
+constexpr std::size_t LONGEST_REFUSAL = 1000;  // of what ~status repeats [characters]
+constexpr std::chrono::seconds IDLE(1);        // nobody listens: who comes wakes the thread
 
 std::chrono::steady_clock::duration periodOf(double rate)
 {
@@ -155,7 +156,7 @@ void ClothPublisher::countRefusal(const std::string& name, const std::string& re
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++refusals_;
-  last_refusal_ = name + ": " + reason;
+  last_refusal_ = name + ": " + reason.substr(0, LONGEST_REFUSAL);
 }
 
 // -- the publishing thread ------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/node/frame_names.h"
 
 namespace cloth_tearing
 {
@@ -19,11 +20,7 @@ namespace
 /// Of a number as it is sent, in whatever frame: the core knows the limits, in the cloth frame.
 const Range FINITE;
 
-constexpr std::size_t MOST_SPHERES = 1000;  // at once
-
 constexpr double LONGEST_KEEP_ALIVE = 3600.0;  // [s]
-
-constexpr double UNIT_TOLERANCE = 1e-3;  // what a quaternion's length may be off
 
 cloth::Quatd toQuaternion(const geometry_msgs::Quaternion& q)
 {
@@ -322,11 +319,9 @@ bool isZero(const geometry_msgs::Quaternion& q)
 void checkOrientation(std::vector<std::string>& found, const std::string& field,
                       const geometry_msgs::Quaternion& q)
 {
-  const double length = toQuaternion(q).norm();
-  if (!isZero(q) && !(std::abs(length - 1.0) <= UNIT_TOLERANCE))
+  if (!isZero(q))
   {
-    found.push_back(field + " has length " + cloth::text(length) +
-                    ", must be a unit quaternion, or all zero to stay as it is");
+    cloth::check(found, field, toQuaternion(q));
   }
 }
 
@@ -348,11 +343,7 @@ std::vector<std::string> problems(const Grasp::Request& request)
   check(found, "radius [m]", request.radius, FINITE);
   check(found, "force_limit [N]", request.force_limit, FINITE);
   check(found, "keep_alive [s]", request.keep_alive, Range::between(0.0, LONGEST_KEEP_ALIVE));
-  if (!request.gripper_frame.empty() && request.gripper_frame.front() == '/')
-  {
-    found.push_back("gripper_frame is \"" + request.gripper_frame +
-                    "\", must not begin with a slash");
-  }
+  checkFrameName(found, "gripper_frame", request.gripper_frame);
   return found;
 }
 
@@ -380,10 +371,10 @@ std::vector<std::string> problems(const ThrowSphere::Request& request)
 std::vector<std::string> problems(const CollisionSpheres& message)
 {
   std::vector<std::string> found;
-  if (message.spheres.size() > MOST_SPHERES)
+  if (message.spheres.size() > cloth::MAX_SPHERES)
   {
     return { "spheres has " + std::to_string(message.spheres.size()) +
-             " entries, must be at most " + std::to_string(MOST_SPHERES) };
+             " entries, must be at most " + std::to_string(cloth::MAX_SPHERES) };
   }
   for (std::size_t i = 0; i < message.spheres.size(); ++i)
   {
@@ -398,10 +389,7 @@ std::vector<std::string> problems(const CollisionSpheres& message)
       found.push_back(field + "velocity must be 0: the sphere moves as its frame " + sphere.frame +
                       " does");
     }
-    if (!sphere.frame.empty() && sphere.frame.front() == '/')
-    {
-      found.push_back(field + "frame is \"" + sphere.frame + "\", must not begin with a slash");
-    }
+    checkFrameName(found, field + "frame", sphere.frame);
   }
   return found;
 }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/node/frame_names.h"
 
 namespace cloth_tearing
 {
@@ -33,10 +34,9 @@ cloth::Pose Frames::toCloth(const std::string& frame, const ros::Time& stamp,
     throw cloth::Refusal(field + " is empty, must name the frame of the values (the cloth's is " +
                          placement_.frame_id + ")");
   }
-  if (frame.front() == '/')  // tf would look for it in vain until patience ends
-  {
-    throw cloth::Refusal(field + " is \"" + frame + "\", must not begin with a slash");
-  }
+  std::vector<std::string> found;
+  checkFrameName(found, field, frame);
+  cloth::refuseIf(found);
   if (frame == placement_.frame_id)
   {
     return { -placement_.origin, cloth::Quatd::Identity() };

@@ -16,11 +16,7 @@ namespace
 
 const Range FINITE;
 
-constexpr std::size_t MOST_TARGETS = 1000;     // in one message
-constexpr std::size_t MOST_PINNED = 100000;    // ids in one request
 constexpr std::size_t MOST_TOLD_TEARS = 1000;  // in the result of a pull
-constexpr double MOST_FORCE = 1e6;             // to stop at [N]
-constexpr std::uint32_t MOST_STOP_TEARS = 1000000;
 
 std::uint8_t toMessage(cloth::GraspEventKind kind)
 {
@@ -192,10 +188,10 @@ std::vector<std::string> problems(const Pin::Request& request)
   std::vector<std::string> found;
   check(found, "point", toVector(request.point), FINITE.high);
   check(found, "radius [m]", request.radius, FINITE);
-  if (request.particles.size() > MOST_PINNED)
+  if (request.particles.size() > cloth::MAX_NAMED_PARTICLES)
   {
     found.push_back("particles has " + std::to_string(request.particles.size()) +
-                    " entries, must be at most " + std::to_string(MOST_PINNED));
+                    " entries, must be at most " + std::to_string(cloth::MAX_NAMED_PARTICLES));
   }
   for (const std::uint32_t particle : request.particles)
   {
@@ -211,10 +207,10 @@ std::vector<std::string> problems(const Pin::Request& request)
 std::vector<std::string> problems(const GraspTargets& message)
 {
   std::vector<std::string> found;
-  if (message.targets.empty() || message.targets.size() > MOST_TARGETS)
+  if (message.targets.empty() || message.targets.size() > cloth::MAX_GRASPS)
   {
     return { "targets has " + std::to_string(message.targets.size()) +
-             " entries, must be at least 1 and at most " + std::to_string(MOST_TARGETS) };
+             " entries, must be at least 1 and at most " + std::to_string(cloth::MAX_GRASPS) };
   }
   for (std::size_t i = 0; i < message.targets.size(); ++i)
   {
@@ -244,11 +240,11 @@ std::vector<std::string> problems(const PullGoal& goal)
   checkWay(found, goal);
   check(found, "linear_speed [m/s]", goal.linear_speed, FINITE);
   check(found, "angular_speed [rad/s]", goal.angular_speed, FINITE);
-  check(found, "stop_force [N]", goal.stop_force, Range::between(0.0, MOST_FORCE));
-  if (goal.stop_tears > MOST_STOP_TEARS)
+  check(found, "stop_force [N]", goal.stop_force, Range::between(0.0, cloth::MAX_FORCE));
+  if (goal.stop_tears > cloth::MAX_STOP_TEARS)
   {
     found.push_back("stop_tears is " + std::to_string(goal.stop_tears) + ", must be at most " +
-                    std::to_string(MOST_STOP_TEARS));
+                    std::to_string(cloth::MAX_STOP_TEARS));
   }
   return found;
 }

@@ -92,6 +92,12 @@ void HandleServer::take(const Feedback::ConstPtr& feedback)
     {
       inbox_.push_back(feedback);
     }
+    else
+    {
+      context_.publisher.countRefusal(TOPIC, "there would be " + std::to_string(MOST_WAITING + 1) +
+                                                 " messages that wait, must be at most " +
+                                                 std::to_string(MOST_WAITING));
+    }
     const auto placed = placed_.find(feedback->marker_name);
     known = placed != placed_.end();
     pose = known ? placed->second : pose;

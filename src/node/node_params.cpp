@@ -4,9 +4,13 @@
 #include <ros/package.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/obj_reader.h"
+#include "cloth_tearing/core/refusal.h"
+#include "cloth_tearing/node/frame_names.h"
 
 namespace cloth_tearing
 {
@@ -50,6 +54,32 @@ std::vector<std::string> grouped(const cloth::SimulationParams& simulation)
   }
   append(found, "", rest);
   return found;
+}
+
+constexpr double MEGABYTE = 1e6;
+
+/// What is there and can only disappoint: a pipe would never end.
+/// @param most length of the file [MB]
+void refuseUnreadable(const std::string& file, double most)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
+  {
+    return;  // whoever opens it says why
+  }
+  if (!std::filesystem::is_regular_file(status))
+  {
+    throw cloth::Refusal("model_file " + file + " is no file");
+  }
+  std::vector<std::string> found;
+  check(found, "model_file " + file + ": its length [MB]",
+        static_cast<double>(std::filesystem::file_size(file, error)) / MEGABYTE,
+        Range::between(0.0, most));
+  if (!found.empty())
+  {
+    throw cloth::Refusal(found.front() + " (limits/model_file)");
+  }
 }
 
 const std::string PACKAGE_SCHEME = "package://";
@@ -97,10 +127,7 @@ std::vector<std::string> placeProblems(const std::string& frame_id, const cloth:
   {
     found.push_back("frame_id is empty, must name a tf frame");
   }
-  else if (frame_id.front() == '/')
-  {
-    found.push_back("frame_id is \"" + frame_id + "\", must not begin with a slash");
-  }
+  checkFrameName(found, "frame_id", frame_id);
   check(found, "cloth_pose/position [m]", position, FARTHEST_ORIGIN);
   return found;
 }
@@ -171,6 +198,9 @@ std::vector<std::string> problems(const NodeParams& params)
   append(found, "pins: ", problems(params.pins));
   append(found, "", grouped(params.simulation));
   append(found, "", problems(params.states));
+  check(found, "limits/model_file [MB]", params.max_model_file,
+        Range::between(0.001, cloth::MAX_MODEL_FILE));
+  check(found, "limits/commands", params.max_commands, Range::between(1, cloth::MAX_COMMANDS));
   return found;
 }
 
@@ -198,8 +228,11 @@ PlacedModel placedModel(const NodeParams& params)
   }
   else
   {
-    cloth::ObjImport imported =
-        cloth::readObjFile(resolvedPath("model_file", params.model_file), params.import);
+    const std::string file = resolvedPath("model_file", params.model_file);
+    refuseUnreadable(file, params.max_model_file);
+    cloth::ImportOptions import = params.import;
+    import.max_bytes = static_cast<std::size_t>(MEGABYTE * params.max_model_file);
+    cloth::ObjImport imported = cloth::readObjFile(file, import);
     placed.model = std::move(imported.model);
     for (const cloth::ImportFinding& finding : imported.report.findings)
     {

@@ -199,6 +199,14 @@ void ParamReader::read(const std::string& name, int& value)
   value = static_cast<const int&>(given);
 }
 
+/// Notes a number that is not.
+bool ParamReader::isFinite(const std::string& name, double number)
+{
+  const std::size_t before = problems_.size();
+  cloth::check(problems_, name, number, cloth::Range());
+  return problems_.size() == before;
+}
+
 void ParamReader::read(const std::string& name, double& value)
 {
   XmlRpcValue given;
@@ -211,12 +219,10 @@ void ParamReader::read(const std::string& name, double& value)
     noteWrongType(name, given, "a number");
     return;
   }
-  if (!std::isfinite(toNumber(given)))
+  if (isFinite(name, toNumber(given)))
   {
-    note(name + " is " + cloth::text(toNumber(given)) + ", must be finite");
-    return;
+    value = toNumber(given);
   }
-  value = toNumber(given);
 }
 
 void ParamReader::read(const std::string& name, std::string& value)
@@ -250,9 +256,8 @@ bool ParamReader::toNumbers(const std::string& name, const XmlRpcValue& list, st
       noteWrongType(element, list[i], "a number");
       return false;
     }
-    if (!std::isfinite(toNumber(list[i])))
+    if (!isFinite(element, toNumber(list[i])))
     {
-      note(element + " is " + cloth::text(toNumber(list[i])) + ", must be finite");
       return false;
     }
     numbers.push_back(toNumber(list[i]));
@@ -324,13 +329,13 @@ void ParamReader::read(const std::string& name, cloth::Quatd& value)
     return;
   }
   cloth::Quatd rotation(numbers[3], numbers[0], numbers[1], numbers[2]);
-  if (std::abs(rotation.norm() - 1.0) > 1e-3)
+  const std::size_t before = problems_.size();
+  cloth::check(problems_, name, rotation);
+  if (problems_.size() == before)
   {
-    note(name + " has length " + cloth::text(rotation.norm()) + ", must be a unit quaternion");
-    return;
+    rotation.normalize();
+    value = rotation;
   }
-  rotation.normalize();
-  value = rotation;
 }
 
 void ParamReader::read(const std::string& name, std::vector<int>& value)

@@ -42,6 +42,17 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.read("max_state_memory", params.states.max_state_memory);
 }
 
+void readLimits(ParamReader& reader, NodeParams& params)
+{
+  cloth::Limits& limits = params.simulation.limits;
+  reader.read("limits/particles", limits.particles);
+  reader.read("limits/triangles", limits.triangles);
+  reader.read("limits/spheres", limits.spheres);
+  reader.read("limits/grasps", limits.grasps);
+  reader.read("limits/model_file", params.max_model_file);
+  reader.read("limits/commands", params.max_commands);
+}
+
 void readHandles(ParamReader& reader, HandleParams& handles)
 {
   reader.read("handles/enabled", handles.enabled);
@@ -184,6 +195,7 @@ void readContact(ParamReader& reader, cloth::ContactParams& contact)
 void readAll(ParamReader& reader, NodeParams& params)
 {
   readNode(reader, params);
+  readLimits(reader, params);
   readMarkers(reader, params.markers);
   readHandles(reader, params.handles);
   readModel(reader, params);

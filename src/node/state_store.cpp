@@ -38,9 +38,9 @@ std::vector<std::string> problems(const StateStoreParams& params)
   {
     found.push_back("state_folder is \"" + params.folder + "\", must be an absolute path or empty");
   }
-  check(found, "max_states", params.max_states, cloth::Range::between(1, 10000));
+  check(found, "max_states", params.max_states, cloth::Range::between(1, cloth::MAX_STATES));
   check(found, "max_state_memory [MB]", params.max_state_memory,
-        cloth::Range::between(1.0, 100000.0));
+        cloth::Range::between(1.0, cloth::MAX_STATE_FILE));
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth_tearing/core/limits.h"
 #include "cloth_tearing/core/types.h"
 
 namespace cloth
@@ -40,8 +41,5 @@ void check(std::vector<std::string>& found, const std::string& field, const Quat
 
 /// `value` as short as it reads back the same to six digits.
 std::string text(double value);
-
-/// Coordinates beyond this are refused [m]: float positions would be too coarse to tear by.
-constexpr double MAX_COORDINATE = 1000.0;
 
 }  // namespace cloth

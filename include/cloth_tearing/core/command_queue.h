@@ -4,12 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -29,9 +31,12 @@ class CommandQueue
 public:
   using Clock = std::chrono::steady_clock;
 
+  /// @param most commands that may wait at once: callers who gave up leave theirs behind
+  explicit CommandQueue(std::size_t most) : most_(most) {}
+
   /// Hands `command(Target&)` to the owner, waits for its answer and returns it or rethrows what
   /// it threw.
-  /// @throws Busy if it did not start within `patience`, or the queue is closed
+  /// @throws Busy if it did not start within `patience`, too many wait, or the queue is closed
   template <class Command>
   auto call(Command&& command, Clock::duration patience)
   {
@@ -107,11 +112,18 @@ private:
       {
         throw Busy("busy: the simulation is ending");
       }
+      if (tasks_.size() >= most_)
+      {
+        throw Busy(
+            "busy: there would be " + std::to_string(tasks_.size() + 1) +
+            " commands that wait, must be at most limits/commands = " + std::to_string(most_));
+      }
       tasks_.push_back(std::move(task));
     }
     changed_.notify_all();
   }
 
+  const std::size_t most_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Task> tasks_;

@@ -20,8 +20,8 @@ struct ImportOptions
   double weld_distance = 0.0;  ///< vertices no further apart are joined [m]; 0 = by index alone
 
   std::size_t max_bytes = 100000000;       ///< length of the file [bytes]
-  int max_vertices = 1000000;              ///< `v` lines, and `vt` lines
-  int max_triangles = 1000000;             ///< after polygons are cut
+  int max_vertices = MAX_PARTICLES;        ///< `v` lines, and `vt` lines
+  int max_triangles = MAX_TRIANGLES;       ///< after polygons are cut
   int max_polygon_corners = 1000;          ///< of one face
   double max_coordinate = MAX_COORDINATE;  ///< largest coordinate after scaling [m]
   double max_texture_coordinate = 1e6;     ///< largest u or v [-]; floats stay finer than a texel

@@ -14,7 +14,8 @@ class Refusal : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/// @throws Refusal with all of `problems`, one a line, if there are any
+/// @throws Refusal with `problems`, one a line, if there are any: of more than 20 the first, and
+/// how many more there are
 void refuseIf(const std::vector<std::string>& problems);
 
 }  // namespace cloth

@@ -15,6 +15,7 @@
 #include "cloth_tearing/core/force_balance.h"
 #include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/grippers.h"
+#include "cloth_tearing/core/limits.h"
 #include "cloth_tearing/core/loose_pieces.h"
 #include "cloth_tearing/core/material.h"
 #include "cloth_tearing/core/pin_commands.h"
@@ -51,6 +52,7 @@ struct SimulationParams
   double runaway_strain = 50.0;  ///< of a spring that carries load; beyond is a runaway [-], > 0
   int threads = 0;             ///< that share a step; 0 = as many as pay off. The bits are the same
   int tear_log_size = 100000;  ///< tears kept for those who ask later, and events of grasps, >= 1
+  Limits limits;
   std::uint64_t life = 0;  ///< names the simulation and its copies among all others: see restored()
   std::string place;       ///< where the cloth frame is, in words: see restored()
 
@@ -203,7 +205,7 @@ public:
 
   /// @return the id of the thrown sphere
   /// @throws Refusal naming everything wrong with it, or that there are too many spheres
-  std::uint64_t throwSphere(const ThrowRequest& request) { return spheres_.throwOne(request); }
+  std::uint64_t throwSphere(const ThrowRequest& request);
 
   /// Catches a sphere and sends it to `center` [m]. It stands still there until it is let go.
   /// @throws Refusal if there is no such sphere, it follows a frame, or center is not usable

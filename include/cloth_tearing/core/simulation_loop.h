@@ -72,6 +72,7 @@ public:
     bool paused = false;                         ///< start paused
     double speed = 1.0;                          ///< of Pace::WALL [-], see checkSpeed
     std::chrono::milliseconds patience{ 1000 };  ///< how long a command may wait before it is Busy
+    int max_commands = 1000;  ///< that wait at once, 1 to MAX_COMMANDS; one more is Busy
 
     /// Called on the loop's thread before every step, to bring in what moves by itself elsewhere;
     /// must not wait.

@@ -35,7 +35,7 @@ public:
               double time_step);
 
   /// @return the id of the thrown sphere
-  /// @throws Refusal naming everything wrong with it, or that there are too many spheres
+  /// @throws Refusal naming everything wrong with it
   std::uint64_t throwOne(const ThrowRequest& request);
 
   /// Catches a sphere and sends it to `center` [m], as a set does. It stands still there, whatever
@@ -61,6 +61,8 @@ public:
 
   std::vector<Sphere>& all() { return spheres_; }
   const std::vector<Sphere>& all() const { return spheres_; }
+
+  std::size_t count(SphereSource source) const;
 
   void clear() { spheres_.clear(); }
 

@@ -130,7 +130,7 @@ void transfer(Archive& archive, SimulationParams& params)
 {
   auto& [material, environment, solver, tearing, strength, contact, rest_shape, max_grasp_distance,
          grasp_force_filter, max_gripper_speed, max_gripper_turn, max_speed, runaway_strain,
-         threads, tear_log_size, life, place] = params;
+         threads, tear_log_size, limits, life, place] = params;
   archive("material", material);
   archive("environment", environment);
   archive("solver", solver);

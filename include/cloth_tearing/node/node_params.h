@@ -80,6 +80,9 @@ struct NodeParams
   cloth::SimulationParams simulation;
   StateStoreParams states;
 
+  double max_model_file = 100.0;  ///< length of an OBJ file [MB], 0.001 to MAX_MODEL_FILE
+  int max_commands = 1000;        ///< that wait for the simulation, 1 to MAX_COMMANDS
+
   double tf_patience = 0.2;       ///< how long a request may wait for its transform [s], 0 to 10
   double command_patience = 1.0;  ///< how long it may wait for the simulation [s], 0.01 to 60
   double frame_timeout = 0.5;     ///< a frame without news for so long is lost [s], 0.01 to 60

@@ -62,6 +62,7 @@ public:
   const std::set<std::string>& known() const { return known_; }
 
 private:
+  bool isFinite(const std::string& name, double number);
   bool take(const std::string& name, XmlRpc::XmlRpcValue& value);
   void flatten(const std::string& prefix, const XmlRpc::XmlRpcValue& tree);
   bool toNumbers(const std::string& name, const XmlRpc::XmlRpcValue& list, std::size_t count,
