@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cloth_tearing/core/archive.h"
+#include "cloth_tearing/core/recorded_calls.h"
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/simulation.h"
 #include "cloth_tearing/core/state_checks.h"
@@ -149,6 +150,12 @@ Simulation Simulation::restored(const std::string& bytes) const
   next.grippers_.resume(next.log_.range()[1] + 1);
   next.publish();
   return next;
+}
+
+void Simulation::become(Simulation other, const std::string& bytes)
+{
+  *this = std::move(other);
+  note<&Simulation::restore>(bytes);
 }
 
 /// Takes the history of the state for its own, which needs events only where they are new here.

@@ -10,6 +10,7 @@
 #include "cloth_tearing/core/flush_subnormals.h"
 #include "cloth_tearing/core/forces.h"
 #include "cloth_tearing/core/kernels.h"
+#include "cloth_tearing/core/recorded_calls.h"
 #include "cloth_tearing/core/snapshot_taker.h"
 #include "cloth_tearing/core/sort_once.h"
 #include "cloth_tearing/core/state_hash.h"
@@ -163,6 +164,16 @@ Simulation::Simulation(const ClothModel& model, const std::vector<int>& pinned,
 }
 
 StepReport Simulation::step(StepObserver* observer)
+{
+  StepReport report = tick(observer);
+  if (recorder_.get() != nullptr)
+  {
+    recorder_.get()->stepped(*this, report);
+  }
+  return report;
+}
+
+StepReport Simulation::tick(StepObserver* observer)
 {
   const FlushSubnormals fast;
   const PhaseMarker enter{ observer };
@@ -466,6 +477,7 @@ void Simulation::publish()
 void Simulation::reset()
 {
   startOver("the cloth was reset");
+  note<&Simulation::reset>();
 }
 
 void Simulation::startOver(const std::string& why)
@@ -498,6 +510,7 @@ GraspTaken Simulation::grasp(const GraspRequest& request)
   keepBalance();
   const GraspTaken taken = grippers_.take(cloth_, request, params_.max_grasp_distance);
   publish();
+  note<&Simulation::grasp>(request);
   return taken;
 }
 
@@ -505,36 +518,48 @@ void Simulation::drag(std::uint64_t grasp, const DragTarget& target)
 {
   grippers_.drag(grasp, target);
   publish();
+  note<&Simulation::drag>(grasp, target);
 }
 
 void Simulation::steer(std::uint64_t grasp, const Pose& pose, double time)
 {
   grippers_.steer(grasp, pose, time);
   publish();
+  note<&Simulation::steer>(grasp, pose, time);
 }
 
 void Simulation::follow(std::uint64_t grasp, const Pose& pose, double time)
 {
   grippers_.follow(grasp, pose, time);
   publish();
+  note<&Simulation::follow>(grasp, pose, time);
 }
 
 void Simulation::frameLost(std::uint64_t grasp, const std::string& reason)
 {
   grippers_.frameLost(grasp, reason);
   publish();
+  note<&Simulation::frameLost>(grasp, reason);
 }
 
 void Simulation::frameFound(std::uint64_t grasp)
 {
   grippers_.frameFound(grasp);
   publish();
+  note<&Simulation::frameFound>(grasp);
+}
+
+void Simulation::stopFollowing(std::uint64_t grasp)
+{
+  grippers_.stopFollowing(grasp);
+  note<&Simulation::stopFollowing>(grasp);
 }
 
 std::uint64_t Simulation::pull(const PullRequest& request)
 {
   const std::uint64_t id = grippers_.pull(request, log_.range()[1] + 1);
   publish();
+  note<&Simulation::pull>(request);
   return id;
 }
 
@@ -543,6 +568,7 @@ bool Simulation::cancelPull(std::uint64_t pull)
   keepBalance();
   const bool was_there = grippers_.cancelPull(cloth_, pull);
   publish();
+  note<&Simulation::cancelPull>(pull);
   return was_there;
 }
 
@@ -564,6 +590,7 @@ void Simulation::release(std::uint64_t grasp, const std::string& reason, AfterGr
   keepBalance();
   grippers_.release(cloth_, grasp, reason, after);
   publish();
+  note<&Simulation::release>(grasp, reason, after);
 }
 
 int Simulation::releaseAll(AfterGrasp after)
@@ -571,6 +598,7 @@ int Simulation::releaseAll(AfterGrasp after)
   keepBalance();
   const int released = grippers_.releaseAll(cloth_, "released on request, with all others", after);
   publish();
+  note<&Simulation::releaseAll>(after);
   return released;
 }
 
@@ -580,6 +608,7 @@ int Simulation::pin(const PinRequest& request)
   const int changed = cloth::pin(cloth_, request);
   grippers_.findLoosePieces(cloth_, "");
   publish();
+  note<&Simulation::pin>(request);
   return changed;
 }
 
@@ -589,6 +618,7 @@ int Simulation::unpin(const PinRequest& request)
   const int changed = cloth::unpin(cloth_, request);
   grippers_.findLoosePieces(cloth_, "no pin holds it any more");
   publish();
+  note<&Simulation::unpin>(request);
   return changed;
 }
 
@@ -600,6 +630,7 @@ double Simulation::utilisationNear(std::uint64_t grasp) const
 void Simulation::moveSphere(std::uint64_t id, const Vec3d& center, double time)
 {
   spheres_.moveTo(id, center, time, params_.contact, params_.solver.time_step);
+  note<&Simulation::moveSphere>(id, center, time);
 }
 
 void Simulation::setSpheres(const std::vector<Sphere>& spheres)
@@ -609,6 +640,20 @@ void Simulation::setSpheres(const std::vector<Sphere>& spheres)
              "limits/spheres", params_.limits.spheres);
   refuseIf(found);
   spheres_.set(spheres, params_.contact, params_.solver.time_step);
+  note<&Simulation::setSpheres>(spheres);
+}
+
+std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
+{
+  const std::uint64_t id = spheres_.throwOne(request);
+  note<&Simulation::throwSphere>(request);
+  return id;
+}
+
+void Simulation::removeSphere(SphereSource source, std::uint64_t id)
+{
+  spheres_.remove(source, id);
+  note<&Simulation::removeSphere>(source, id);
 }
 
 std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
@@ -622,11 +667,13 @@ std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
 void Simulation::holdSphere(SphereSource source, std::uint64_t id, const Vec3d& center)
 {
   spheres_.hold(source, id, center, params_.contact, params_.solver.time_step);
+  note<&Simulation::holdSphere>(source, id, center);
 }
 
 void Simulation::letGoOfSphere(SphereSource source, std::uint64_t id)
 {
   spheres_.letGo(source, id, params_.contact);
+  note<&Simulation::letGoOfSphere>(source, id);
 }
 
 std::uint64_t Simulation::throwAtCloth(SphereSource source, std::uint64_t id, double speed)
@@ -639,7 +686,9 @@ std::uint64_t Simulation::throwAtCloth(SphereSource source, std::uint64_t id, do
   {
     throw Refusal("the sphere is in the centre of the cloth: there is nothing to aim at");
   }
-  return spheres_.throwAgain(source, id, speed * way.normalized());
+  const std::uint64_t thrown = spheres_.throwAgain(source, id, speed * way.normalized());
+  note<&Simulation::throwAtCloth>(source, id, speed);
+  return thrown;
 }
 
 void Simulation::place(const Vec3Array& positions)
@@ -661,6 +710,7 @@ void Simulation::place(const Vec3Array& positions)
   keepBalance();
   cloth_.state.position = positions;
   cloth_.state.velocity.setZero();
+  note<&Simulation::place>(positions);
 }
 
 Snapshot Simulation::snapshot() const

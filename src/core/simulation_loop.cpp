@@ -312,7 +312,7 @@ StepAnswer SimulationLoop::restore(const std::string& state)
       {
         Simulation restored = simulation.restored(state);
         cutRequests("another state was restored");
-        simulation = std::move(restored);
+        simulation.become(std::move(restored), state);
         followAnew();
         StepAnswer answer;
         tell(answer);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/recorded_calls.h"
 #include "cloth_tearing/core/simulation.h"
 
 namespace cloth
@@ -206,6 +207,7 @@ std::vector<std::string> Simulation::tune(const Tuning& tuning)
     checkStability(notes);
   }
   watchSprings();
+  note<&Simulation::tune>(tuning);
   return notes;
 }
 
@@ -220,6 +222,7 @@ void Simulation::takeCloth(Simulation other)
 {
   other.params_.life = params_.life;
   other.params_.place = params_.place;
+  const std::string saved = recorder_.get() != nullptr ? other.save() : std::string();
   params_ = std::move(other.params_);
   untorn_ = std::move(other.untorn_);
   start_stability_ = other.start_stability_;
@@ -227,6 +230,7 @@ void Simulation::takeCloth(Simulation other)
   loose_pieces_ = {};
   contact_ = {};
   startOver("another cloth was put in its place");
+  note<&Simulation::takeSaved>(saved);
 }
 
 }  // namespace cloth

@@ -20,6 +20,7 @@
 #include "cloth_tearing/core/material.h"
 #include "cloth_tearing/core/pin_commands.h"
 #include "cloth_tearing/core/pushed_springs.h"
+#include "cloth_tearing/core/recorder.h"
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/rest_shape.h"
 #include "cloth_tearing/core/solver.h"
@@ -116,6 +117,8 @@ struct Summary
 class Simulation
 {
 public:
+  struct Calls;  ///< the members that change it from outside, for recordings: recorded_calls.h
+
   /// @param model in the cloth frame: its axes are those of the world it hangs in
   /// @param pinned particles that stand still
   /// @throws Refusal naming everything wrong with `params`, or that cloth so soft at this time_step
@@ -144,6 +147,17 @@ public:
   /// @throws Refusal saying why `bytes` are no such state, or that it was saved in another place
   Simulation restored(const std::string& bytes) const;
 
+  /// Goes on as restored() says. @throws Refusal as that; nothing has changed then
+  void restore(const std::string& bytes) { become(restored(bytes), bytes); }
+
+  /// The same in two parts, for who has to do something between them.
+  /// @param other what restored(bytes) has made of this
+  void become(Simulation other, const std::string& bytes);
+
+  /// From now on `recorder` is told of every step, and of every call that changes this simulation
+  /// before it returns. To be set before anything has changed.
+  void recordTo(std::shared_ptr<Recorder> recorder) { recorder_.set(std::move(recorder)); }
+
   /// Takes hold of the cloth. Pinned particles are passed over.
   /// @throws Refusal if nothing is within reach, or a particle is held by another grasp
   GraspTaken grasp(const GraspRequest& request);
@@ -169,7 +183,7 @@ public:
   void frameFound(std::uint64_t grasp);
 
   /// Commands move it from now on. @throws Refusal if there is no such grasp or it follows none
-  void stopFollowing(std::uint64_t grasp) { grippers_.stopFollowing(grasp); }
+  void stopFollowing(std::uint64_t grasp);
 
   /// Begins a pull; the one before on the same grasp is cancelled. It is looked at in the end of
   /// each step, so that it ends in the very step in which its condition holds: see pullEndsSince().
@@ -226,7 +240,7 @@ public:
   }
 
   /// @throws Refusal if there is no such sphere
-  void removeSphere(SphereSource source, std::uint64_t id) { spheres_.remove(source, id); }
+  void removeSphere(SphereSource source, std::uint64_t id);
 
   /// Changes parameters from the next step on, of the torn cloth and of the one that reset() goes
   /// back to. Before the first step, it is then as if it had been built with them.
@@ -240,6 +254,9 @@ public:
   /// Puts the cloth of `other` in place of this one, with its parameters, which have this
   /// time_step; as reset() otherwise.
   void takeCloth(Simulation other);
+
+  /// The same with a cloth that save() has saved. @throws Refusal as restored()
+  void takeSaved(const std::string& bytes) { takeCloth(restored(bytes)); }
 
   /// Puts every particle where `positions` [m] says, at rest: to show where cloth belongs.
   /// @throws Refusal if there are not as many positions as particles, or one is out of range
@@ -337,6 +354,10 @@ private:
     EventHistory ours;
   };
 
+  template <auto METHOD, class... Arguments>
+  void note(const Arguments&... arguments);
+
+  StepReport tick(StepObserver* observer);
   void makeWorkers();
   void makeSolver();
   void watchSprings();
@@ -387,6 +408,7 @@ private:
   std::uint64_t step_ = 0;
   std::uint32_t epoch_ = 0;
   std::shared_ptr<WorkerPool> workers_;  ///< share the work of a step; none: it is done alone
+  OwnRecorder recorder_;
 };
 
 }  // namespace cloth

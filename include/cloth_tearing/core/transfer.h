@@ -464,14 +464,14 @@ void transfer(Archive& archive, EventHistory& history)
 
 /// All but the logs and what is adopted, which are the life's, and what a step or restored() makes
 /// anew: contact, tearing, loose_pieces, acceleration, outer, suspects, undo, balance,
-/// wanted_until, start_time, start_step, epoch.
+/// wanted_until, start_time, start_step, epoch. Who records it is nobody else's matter.
 template <class Archive>
 void transfer(Archive& archive, Simulation& simulation)
 {
   auto& [params, untorn, cloth, solver, contact, tearing, loose_pieces, grippers, spheres,
          acceleration, outer, suspects, undo, stability, log, grasp_log, pull_log, balance,
          wanted_until, history, adopted, tears, start_stability, start_time, start_step, step,
-         epoch, workers] = simulation;
+         epoch, workers, recorder] = simulation;
   archive("params", params);
   archive("untorn", untorn);
   archive("cloth", cloth);
