@@ -95,6 +95,7 @@ TEST(SolverEntry, TellsHowItRuns)
   source.summary.utilisation = 0.25;
   source.refusals = 2;
   source.last_refusal = "grasp: no";
+  source.recording = "/somewhere";
 
   const DiagnosticStatusWrapper entry = solver(source);
 
@@ -107,6 +108,15 @@ TEST(SolverEntry, TellsHowItRuns)
   EXPECT_EQ(value(entry, "worst utilisation"), "0.25");
   EXPECT_EQ(value(entry, "refusals"), "2");
   EXPECT_EQ(value(entry, "last refusal"), "grasp: no");
+  EXPECT_EQ(value(entry, "recording"), "/somewhere");
+}
+
+TEST(SolverEntry, WarnsWhenTheRunIsNotRecordedAnyMore)
+{
+  StatusSource source;
+  source.recording_problem = "the disk is full";
+  EXPECT_EQ(solver(source).level, DiagnosticStatus::WARN);
+  EXPECT_EQ(solver(source).message, "is not recorded any more: the disk is full");
 }
 
 TEST(TopologyEntry, CountsTearsAndPieces)

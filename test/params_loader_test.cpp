@@ -273,6 +273,8 @@ TEST(ParamsLoader, SaysWhatIsWrongWithAValue)
     { "", "speed", 0, "speed is 0" },
     { "", "clock_rate", 0, "clock_rate [Hz] is 0" },
     { "", "state_folder", "states", "must be an absolute path" },
+    { "", "recording_folder", "runs", "must be an absolute path" },
+    { "", "recording_limit", 0.5, "recording_limit [MB] is 0.5" },
     { "", "max_states", 0, "max_states is 0" },
     { "", "max_state_memory", 0.5, "max_state_memory [MB] is 0.5" },
     { "", "solver", 1, "must be one of force_springs, xpbd" },

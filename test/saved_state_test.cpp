@@ -650,6 +650,7 @@ const std::set<std::string> LEFT_OUT = {
   "start_step of simulation",
   "epoch of simulation",
   "workers of simulation",
+  "recorder of simulation",  // who records it is nobody else's matter
   "threads of params",
   "changes of springs",  // whoever follows them has: a step ends with that
 };

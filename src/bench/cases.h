@@ -51,4 +51,7 @@ void registerTears();
 /// profile and after_tears/...: a thesis' cloth that was torn 500 times.
 void registerProfile();
 
+/// recorded/SIDE: what a step costs that is recorded to a file, beside one that is not.
+void registerRecording();
+
 }  // namespace cloth_bench

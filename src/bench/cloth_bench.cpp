@@ -90,6 +90,7 @@ int main(int count, char** arguments)
     cloth_bench::registerPhases();
     cloth_bench::registerTears();
     cloth_bench::registerProfile();
+    cloth_bench::registerRecording();
     return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 1;
   }
   catch (const std::exception& error)

@@ -11,8 +11,8 @@ namespace cloth
 namespace
 {
 
-/// How often the hash of the state is noted, which costs as much as a step [steps].
-constexpr std::uint64_t HASH_INTERVAL = 100;
+/// How often the hash of the state is noted, which costs as much as some steps do [steps].
+constexpr std::uint64_t HASH_INTERVAL = 500;
 
 }  // namespace
 

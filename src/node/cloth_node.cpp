@@ -79,7 +79,8 @@ void tellHowItIsComputed(const cloth::Simulation& simulation)
 }
 
 std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params,
-                                                  const Placement& placement)
+                                                  const Placement& placement,
+                                                  ClothPublisher& publisher)
 {
   const PlacedModel placed = placedModel(params);
   for (const std::string& finding : placed.findings)
@@ -97,6 +98,12 @@ std::unique_ptr<cloth::Simulation> makeSimulation(const NodeParams& params,
   }
   tellHowItIsComputed(*simulation);
   ROS_INFO_STREAM(limitsInWords(params));
+  if (!params.recording.folder.empty())
+  {
+    publisher.recordingBegins(beginRecording(
+        *simulation, { placed.model, placed.pinned, simulation_params }, params.recording,
+        [&publisher](const std::string& reason) { publisher.recordingEnds(reason); }));
+  }
   return simulation;
 }
 
@@ -111,11 +118,16 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , publisher_(node_, params, placement_)
     , clock_(node_, params)
     , requests_(publisher_)
-    , loop_(makeSimulation(params, placement_),
+    , states_(params.states)
+    , loop_(makeSimulation(params, placement_, publisher_),
             loopOptions(params, follower_, publisher_, pull_ends_),
             [this](const cloth::Simulation& simulation, const cloth::StepReport& report)
             {
               clock_.onStep(simulation.time());
+              if (!report.fault.empty())
+              {
+                keepFault(simulation);
+              }
               publisher_.onStep(simulation, report);
               pull_ends_.raise(simulation.loggedPullEnds()[1]);
             })
@@ -123,7 +135,7 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , spheres_(context())
     , pulls_(context(), pull_ends_)
     , predictions_(context())
-    , states_(context(), params.states, [this] { tuning_.show(); })
+    , state_services_(context(), states_, [this] { tuning_.show(); })
     , tuning_(context(), { cloth::tuningOf(params.simulation), params.speed })
     , models_(context(), params)
     , spinner_(REQUEST_THREADS, &queue_)
@@ -167,6 +179,27 @@ void ClothNode::openRequests()
                            [this](auto&, auto&) { settleFaults([this] { loop_.resume(); }); });
   requests_.serve<Trigger>(node_, "reset",
                            [this](auto&, auto&) { settleFaults([this] { loop_.reset(); }); });
+}
+
+/// The state before a fault, to look at: restored, a step brings the fault again.
+void ClothNode::keepFault(const cloth::Simulation& simulation)
+{
+  try
+  {
+    const std::string state = simulation.save();
+    states_.keep("fault", state);
+    ROS_ERROR_STREAM(
+        "The state before a fault is kept: restore the state \"fault\", then a step "
+        "shows it again");
+    if (states_.hasFiles())
+    {
+      states_.write("fault", state);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    ROS_WARN_STREAM("The state before a fault is not kept: " << error.what());
+  }
 }
 
 /// Forgets the faults so far once `command` has succeeded. The next one may come before it returns.

@@ -159,6 +159,20 @@ void ClothPublisher::countRefusal(const std::string& name, const std::string& re
   last_refusal_ = name + ": " + reason.substr(0, LONGEST_REFUSAL);
 }
 
+void ClothPublisher::recordingBegins(const std::string& path)
+{
+  ROS_INFO_STREAM("Records to " << path);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  recording_ = path;
+}
+
+void ClothPublisher::recordingEnds(const std::string& reason)
+{
+  ROS_ERROR_STREAM("The recording ends, the simulation goes on: " << reason);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  recording_problem_ = reason;
+}
+
 // -- the publishing thread ------------------------------------------------------------------------
 
 void ClothPublisher::run()
@@ -320,6 +334,8 @@ StatusSource ClothPublisher::statusSource()
     source.fault = fault_;
     source.refusals = refusals_;
     source.last_refusal = last_refusal_;
+    source.recording = recording_;
+    source.recording_problem = recording_problem_;
   }
   return source;
 }

@@ -267,6 +267,8 @@ SimulationStatus toMessage(const StatusSource& source, const Placement& placemen
   message.utilisation_at = toPoint(summary.utilisation_at, placement);
   message.refusals = source.refusals;
   message.last_refusal = source.last_refusal;
+  message.recording = source.recording;
+  message.recording_problem = source.recording_problem;
   message.state_hash = summary.state_hash;
   return message;
 }

@@ -33,6 +33,10 @@ void summarise(const StatusSource& source, DiagnosticStatusWrapper& entry)
   {
     entry.summary(DiagnosticStatus::ERROR, "paused itself: " + source.fault);
   }
+  else if (!source.recording_problem.empty())
+  {
+    entry.summary(DiagnosticStatus::WARN, "is not recorded any more: " + source.recording_problem);
+  }
   else if (source.loop.paused)
   {
     entry.summary(DiagnosticStatus::WARN, "paused");
@@ -71,6 +75,7 @@ void describeSolver(const StatusSource& source, DiagnosticStatusWrapper& entry)
   entry.add("maximum strain", cloth::text(source.summary.max_strain));
   entry.add("refusals", source.refusals);
   entry.add("last refusal", source.last_refusal);
+  entry.add("recording", source.recording);
 }
 
 void describeTopology(const StatusSource& source, DiagnosticStatusWrapper& entry)

@@ -201,6 +201,7 @@ std::vector<std::string> problems(const NodeParams& params)
   check(found, "limits/model_file [MB]", params.max_model_file,
         Range::between(0.001, cloth::MAX_MODEL_FILE));
   check(found, "limits/commands", params.max_commands, Range::between(1, cloth::MAX_COMMANDS));
+  append(found, "", problems(params.recording));
   return found;
 }
 

@@ -40,6 +40,8 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.read("state_folder", params.states.folder);
   reader.read("max_states", params.states.max_states);
   reader.read("max_state_memory", params.states.max_state_memory);
+  reader.read("recording_folder", params.recording.folder);
+  reader.read("recording_limit", params.recording.limit);
 }
 
 void readLimits(ParamReader& reader, NodeParams& params)

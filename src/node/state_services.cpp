@@ -6,9 +6,9 @@
 namespace cloth_tearing
 {
 
-StateServices::StateServices(const NodeContext& context, const StateStoreParams& params,
+StateServices::StateServices(const NodeContext& context, StateStore& store,
                              std::function<void()> on_restore)
-    : context_(context), store_(params), on_restore_(std::move(on_restore))
+    : context_(context), store_(store), on_restore_(std::move(on_restore))
 {
   context_.requests.serve<NamedState>(
       context_.node, "save_state", [this](auto& q, auto& a) { onSave(q, a); }, Effect::LOOKS);

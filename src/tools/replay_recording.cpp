@@ -20,7 +20,7 @@ const char USAGE[] =
     "usage: replay_recording [--steps N] [--save STATE] FILE\n"
     "\n"
     "Does a run again that the node recorded (recording_folder), without ROS and as fast as it\n"
-    "goes, and compares: every tear and fault, and the state hash every hundred steps, have to be\n"
+    "goes, and compares: every tear and fault, and the state hash every 500 steps, have to be\n"
     "the same, bit for bit.\n"
     "\n"
     "  --steps N      stop after so many steps, counted over all epochs (default: all)\n"

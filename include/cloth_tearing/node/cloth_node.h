@@ -23,6 +23,7 @@
 #include "cloth_tearing/node/request_server.h"
 #include "cloth_tearing/node/sphere_services.h"
 #include "cloth_tearing/node/state_services.h"
+#include "cloth_tearing/node/state_store.h"
 
 namespace cloth_tearing
 {
@@ -45,6 +46,7 @@ private:
 
   void openRequests();
   NodeContext context();
+  void keepFault(const cloth::Simulation& simulation);
   template <class Command>
   void settleFaults(Command command);
 
@@ -59,12 +61,13 @@ private:
   ClockPublisher clock_;
   NewestNumber pull_ends_;
   RequestServer requests_;
+  StateStore states_;
   cloth::SimulationLoop loop_;
   GraspServices grasps_;
   SphereServices spheres_;
   PullServer pulls_;
   PullPredictor predictions_;
-  StateServices states_;
+  StateServices state_services_;
   LiveTuning tuning_;
   ModelServices models_;
   std::unique_ptr<HandleServer> handles_;  ///< none unless wanted

@@ -90,6 +90,12 @@ public:
   /// A request or message was refused.
   void countRefusal(const std::string& name, const std::string& reason);
 
+  /// The run is recorded to the file `path`.
+  void recordingBegins(const std::string& path);
+
+  /// It is so no longer.
+  void recordingEnds(const std::string& reason);
+
 private:
   using Clock = std::chrono::steady_clock;
 
@@ -150,6 +156,8 @@ private:
   std::uint64_t faults_ = 0;
   std::uint64_t refusals_ = 0;
   std::string last_refusal_;
+  std::string recording_;
+  std::string recording_problem_;
 
   std::thread thread_;
 };

@@ -74,6 +74,8 @@ struct StatusSource
   std::string fault;
   std::uint64_t refusals = 0;
   std::string last_refusal;
+  std::string recording;          ///< path; empty = the run is not recorded
+  std::string recording_problem;  ///< why it is not recorded any more; empty = all is well
 };
 
 /// The header has no stamp yet.

@@ -11,6 +11,7 @@
 #include "cloth_tearing/core/pins.h"
 #include "cloth_tearing/core/simulation.h"
 #include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/node/recording.h"
 #include "cloth_tearing/node/state_store.h"
 
 namespace cloth_tearing
@@ -79,6 +80,7 @@ struct NodeParams
   cloth::PinParams pins = { { "top" }, {}, {} };
   cloth::SimulationParams simulation;
   StateStoreParams states;
+  RecordingParams recording;
 
   double max_model_file = 100.0;  ///< length of an OBJ file [MB], 0.001 to MAX_MODEL_FILE
   int max_commands = 1000;        ///< that wait for the simulation, 1 to MAX_COMMANDS

@@ -16,15 +16,15 @@ class StateServices
 {
 public:
   /// @param on_restore called after each: the state has brought its own parameters
-  StateServices(const NodeContext& context, const StateStoreParams& params,
-                std::function<void()> on_restore);
+  /// @param store outlives this
+  StateServices(const NodeContext& context, StateStore& store, std::function<void()> on_restore);
 
 private:
   void onSave(const NamedState::Request& request, NamedState::Response& response);
   void onRestore(const NamedState::Request& request, NamedState::Response& response);
 
   NodeContext context_;
-  StateStore store_;
+  StateStore& store_;
   std::function<void()> on_restore_;
 };
 

@@ -38,6 +38,9 @@ public:
   /// @throws Refusal if nothing has the name
   Bytes kept(const std::string& name) const;
 
+  /// Whether there is a folder of files.
+  bool hasFiles() const { return !params_.folder.empty(); }
+
   /// Writes `bytes` to the file of the name, in place of the one before: whoever reads it, and
   /// whatever happens meanwhile, finds one or the other, never a part. The folder is made if it is
   /// missing.
