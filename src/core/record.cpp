@@ -26,6 +26,16 @@ void transfer(Archive& archive, ClothModel& model)
   archive("triangles", triangles);
 }
 
+template <class Archive>
+void transfer(Archive& archive, Limits& limits)
+{
+  auto& [particles, triangles, spheres, grasps] = limits;
+  archive("particles", particles);
+  archive("triangles", triangles);
+  archive("spheres", spheres);
+  archive("grasps", grasps);
+}
+
 /// Those that a step reads, and those that only requests and logs read.
 template <class Archive>
 void transferAll(Archive& archive, SimulationParams& params)
@@ -34,6 +44,7 @@ void transferAll(Archive& archive, SimulationParams& params)
   archive("max_grasp_distance", params.max_grasp_distance);
   archive("threads", params.threads);
   archive("tear_log_size", params.tear_log_size);
+  archive("limits", params.limits);
   archive("life", params.life);
   archive("place", params.place);
 }

@@ -643,13 +643,6 @@ void Simulation::setSpheres(const std::vector<Sphere>& spheres)
   note<&Simulation::setSpheres>(spheres);
 }
 
-std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
-{
-  const std::uint64_t id = spheres_.throwOne(request);
-  note<&Simulation::throwSphere>(request);
-  return id;
-}
-
 void Simulation::removeSphere(SphereSource source, std::uint64_t id)
 {
   spheres_.remove(source, id);
@@ -661,7 +654,9 @@ std::uint64_t Simulation::throwSphere(const ThrowRequest& request)
   std::vector<std::string> found;
   checkCount(found, "spheres", spheres_.all().size() + 1, "limits/spheres", params_.limits.spheres);
   refuseIf(found);
-  return spheres_.throwOne(request);
+  const std::uint64_t id = spheres_.throwOne(request);
+  note<&Simulation::throwSphere>(request);
+  return id;
 }
 
 void Simulation::holdSphere(SphereSource source, std::uint64_t id, const Vec3d& center)
