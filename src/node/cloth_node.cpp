@@ -118,6 +118,7 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , publisher_(node_, params, placement_)
     , clock_(node_, params)
     , requests_(publisher_)
+    , transforms_(frames_.buffer(), requests_)
     , states_(params.states)
     , loop_(makeSimulation(params, placement_, publisher_),
             loopOptions(params, follower_, publisher_, pull_ends_),

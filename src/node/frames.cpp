@@ -1,6 +1,8 @@
 // Finds the way from any frame into the cloth frame, or says why there is none.
 #include "cloth_tearing/node/frames.h"
 
+#include <tf2/exceptions.h>
+
 #include <thread>
 
 #include "cloth_tearing/core/refusal.h"
@@ -17,7 +19,7 @@ constexpr std::chrono::milliseconds LOOK_AGAIN(5);
 }  // namespace
 
 Frames::Frames(const Placement& placement, std::chrono::duration<double> patience)
-    : placement_(placement), patience_(patience), listener_(buffer_)
+    : placement_(placement), patience_(patience)
 {
 }
 

@@ -33,7 +33,8 @@ GraspServices::GraspServices(const NodeContext& context) : context_(context)
   requests.serve<GetGraspEvents>(
       node, "get_grasp_events", [this](auto& q, auto& a) { onGetGraspEvents(q, a); },
       Effect::LOOKS);
-  targets_ = node.subscribe("grasp_targets", 10, &GraspServices::onTargets, this);
+  targets_ = requests.listen<GraspTargets>(node, "grasp_targets", 10,
+                                           [this](const GraspTargets& m) { steer(m); });
   alive_timer_ = node.createSteadyTimer(
       ALIVE_PERIOD, [this](const ros::SteadyTimerEvent&) { onAliveTimer(); }, false, false);
 }
@@ -145,11 +146,6 @@ void GraspServices::onGetGraspEvents(const GetGraspEvents::Request& request,
   response.events = toMessages(events, context_.placement);
   response.oldest = kept[0];
   response.newest = kept[1];
-}
-
-void GraspServices::onTargets(const GraspTargets::ConstPtr& message)
-{
-  context_.requests.hear("grasp_targets", [&] { steer(*message); });
 }
 
 void GraspServices::steer(const GraspTargets& message)

@@ -1,4 +1,4 @@
-// One dynamic_reconfigure server for each group of parameters.
+// Serves each group of parameters to clients of dynamic_reconfigure.
 #include "cloth_tearing/node/live_tuning.h"
 
 #include <cloth_tearing/BoundsMaxConfig.h>
@@ -10,8 +10,9 @@
 #include <cloth_tearing/SolverConfig.h>
 #include <cloth_tearing/TearingConfig.h>
 #include <cloth_tearing/WindConfig.h>
-#include <dynamic_reconfigure/server.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/console.h>
+#include <ros/publisher.h>
 
 #include <string>
 
@@ -25,8 +26,9 @@ namespace cloth_tearing
 namespace
 {
 
-/// The level with which a server tells of its start; that of a change is as in cfg/.
-constexpr std::uint32_t AT_START = ~std::uint32_t{ 0 };
+// Where clients of dynamic_reconfigure look.
+const std::string DESCRIPTIONS = "parameter_descriptions";
+const std::string UPDATES = "parameter_updates";
 
 // -- which shown value is which value of the core: `copy(shown, value)` goes either way -----------
 
@@ -192,44 +194,49 @@ public:
   /// @param name of the group; empty for none
   GroupOf(LiveTuning& host, const std::string& name, cloth::LoopTuning tuning)
       : context_(host.context_)
+      , mutex_(host.mutex_)
+      , node_(context_.node, name)
       , request_(name.empty() ? "set_parameters" : name + "/set_parameters")
-      , in_force_(atStart(host.context_, name, tuning))
-      , server_(host.mutex_, ros::NodeHandle(host.context_.node, name))
+      , descriptions_(
+            node_.advertise<dynamic_reconfigure::ConfigDescription>(DESCRIPTIONS, 1, true))
+      , updates_(node_.advertise<dynamic_reconfigure::Config>(UPDATES, 1, true))
   {
-    server_.setCallback([this](Config& wanted, std::uint32_t level) { onChange(wanted, level); });
+    match(in_force_, tuning, ToShown{ 0.0 });
+    descriptions_.publish(Config::__getDescriptionMessage__());
+    tell();
+    context_.requests.answer<dynamic_reconfigure::Reconfigure>(
+        context_.node, request_, [this](auto& q, auto& a) { set(q.config, a.config); });
   }
 
   void show(cloth::LoopTuning& tuning) override
   {
     match(in_force_, tuning, ToShown{ context_.placement.origin.z() });
-    server_.updateConfig(in_force_);
+    tell();
   }
 
 private:
-  /// The server reads its first values from the parameter server, where a list hides the entries of
-  /// a vector: they have to be there.
-  static Config atStart(const NodeContext& context, const std::string& name,
-                        cloth::LoopTuning& tuning)
+  /// @param wanted some or all values, each brought to its limits
+  void set(dynamic_reconfigure::Config& wanted, dynamic_reconfigure::Config& in_force)
   {
-    Config config = Config::__getDefault__();
-    match(config, tuning, ToShown{ 0.0 });
-    config.__toServer__(ros::NodeHandle(context.node, name));
-    return config;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Config config = in_force_;
+    config.__fromMessage__(wanted);
+    config.__clamp__();
+    if (in_force_.__level__(config) != 0)  // else nothing changes
+    {
+      change(config);
+    }
+    tell();
+    in_force_.__toMessage__(in_force);
   }
 
-  void onChange(Config& wanted, std::uint32_t level)
+  void change(Config& wanted)
   {
-    if (level == AT_START || level == 0)  // level 0: nothing changes
-    {
-      wanted = in_force_;
-      return;
-    }
     const std::string reason = context_.requests.refusal(request_, [&] { tune(wanted); });
     if (!reason.empty())
     {
       ROS_WARN_STREAM(context_.node.getNamespace()
                       << "/" << request_ << " was refused, the values stay: " << reason);
-      wanted = in_force_;
       return;
     }
     in_force_ = wanted;
@@ -238,19 +245,31 @@ private:
 
   void tune(Config& wanted)
   {
-    const ToCore copy{ context_.placement.origin.z() };
-    const std::vector<std::string> notes =
-        context_.loop.tune([&](cloth::LoopTuning& tuning) { match(wanted, tuning, copy); });
+    const double origin = context_.placement.origin.z();
+    const std::vector<std::string> notes = context_.loop.tune(
+        [&](cloth::LoopTuning& tuning) { match(wanted, tuning, ToCore{ origin }); });
     for (const std::string& note : notes)
     {
       ROS_WARN_STREAM(note);
     }
   }
 
+  /// To those who listen, and to the parameter server.
+  void tell() const
+  {
+    in_force_.__toServer__(node_);
+    dynamic_reconfigure::Config message;
+    in_force_.__toMessage__(message);
+    updates_.publish(message);
+  }
+
   NodeContext context_;
+  std::mutex& mutex_;
+  ros::NodeHandle node_;
   std::string request_;
-  Config in_force_;  ///< guarded by the servers' mutex
-  dynamic_reconfigure::Server<Config> server_;
+  ros::Publisher descriptions_;
+  ros::Publisher updates_;
+  Config in_force_ = Config::__getDefault__();  ///< guarded by mutex_
 };
 
 LiveTuning::LiveTuning(const NodeContext& context, const cloth::LoopTuning& start)
@@ -277,7 +296,7 @@ void LiveTuning::open(const std::string& name, const cloth::LoopTuning& start)
 
 void LiveTuning::show()
 {
-  const boost::recursive_mutex::scoped_lock lock(mutex_);
+  const std::lock_guard<std::mutex> lock(mutex_);
   try
   {
     cloth::LoopTuning tuning = context_.loop.tuning();

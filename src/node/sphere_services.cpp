@@ -14,7 +14,8 @@ SphereServices::SphereServices(const NodeContext& context) : context_(context)
 {
   context_.requests.serve<ThrowSphere>(context_.node, "throw_sphere",
                                        [this](auto& q, auto& a) { throwSphere(q, a); });
-  spheres_ = context_.node.subscribe("spheres", 1, &SphereServices::onSpheres, this);
+  subscriber_ = context_.requests.listen<CollisionSpheres>(
+      context_.node, "spheres", 1, [this](const CollisionSpheres& m) { setSpheres(m); });
 }
 
 void SphereServices::throwSphere(const ThrowSphere::Request& request,
@@ -26,16 +27,11 @@ void SphereServices::throwSphere(const ThrowSphere::Request& request,
                                           { return simulation.throwSphere(wish); });
 }
 
-void SphereServices::onSpheres(const CollisionSpheres::ConstPtr& message)
+void SphereServices::setSpheres(const CollisionSpheres& message)
 {
-  context_.requests.hear(
-      "spheres",
-      [&]
-      {
-        cloth::refuseIf(problems(*message));
-        const std::vector<cloth::Sphere> spheres = placed(*message);
-        context_.loop.call([&](cloth::Simulation& simulation) { simulation.setSpheres(spheres); });
-      });
+  cloth::refuseIf(problems(message));
+  const std::vector<cloth::Sphere> spheres = placed(message);
+  context_.loop.call([&](cloth::Simulation& simulation) { simulation.setSpheres(spheres); });
 }
 
 /// All spheres where they are now: each in the frame of its own, or in that of the header.

@@ -24,6 +24,7 @@
 #include "cloth_tearing/node/sphere_services.h"
 #include "cloth_tearing/node/state_services.h"
 #include "cloth_tearing/node/state_store.h"
+#include "cloth_tearing/node/transform_feed.h"
 
 namespace cloth_tearing
 {
@@ -61,6 +62,7 @@ private:
   ClockPublisher clock_;
   NewestNumber pull_ends_;
   RequestServer requests_;
+  TransformFeed transforms_;
   StateStore states_;
   cloth::SimulationLoop loop_;
   GraspServices grasps_;

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <std_msgs/Header.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2/buffer_core.h>
 
 #include <atomic>
 #include <chrono>
@@ -41,6 +40,9 @@ public:
   };
   Latest latest(const std::string& frame) const;
 
+  /// Where transforms are to be put.
+  tf2::BufferCore& buffer() { return buffer_; }
+
   /// Ends all waiting, now and from now on.
   void stopWaiting() { waiting_ = false; }
 
@@ -48,8 +50,7 @@ private:
   Placement placement_;
   std::chrono::duration<double> patience_;
   std::atomic<bool> waiting_{ true };
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore buffer_;
 };
 
 }  // namespace cloth_tearing

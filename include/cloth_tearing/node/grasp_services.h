@@ -6,7 +6,6 @@
 #include <cloth_tearing/Pin.h>
 #include <cloth_tearing/Release.h>
 #include <ros/steady_timer.h>
-#include <ros/subscriber.h>
 
 #include <cstdint>
 #include <map>
@@ -41,7 +40,6 @@ private:
   template <class Change>
   void changePins(const Pin::Request& request, Pin::Response& response, Change change);
   void onGetGraspEvents(const GetGraspEvents::Request& request, GetGraspEvents::Response& response);
-  void onTargets(const GraspTargets::ConstPtr& message);
   void steerAll(cloth::Simulation& simulation, const GraspTargets& message,
                 const cloth::Pose& to_cloth);
   void watch(const KeepAlive::Watched& grasp);

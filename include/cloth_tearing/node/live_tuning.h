@@ -1,10 +1,9 @@
 // Parameters that change while the node runs, by dynamic_reconfigure under the names of cloth.yaml.
 #pragma once
 
-#include <boost/thread/recursive_mutex.hpp>
-
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "cloth_tearing/core/simulation_loop.h"
@@ -13,9 +12,10 @@
 namespace cloth_tearing
 {
 
-/// One dynamic_reconfigure server for each group, in its namespace: ~material/set_parameters, ...,
-/// and ~set_parameters for what has no group. It knows no lists, so a vector is a group of x, y and
-/// z.
+/// Speaks to dynamic_reconfigure's clients, for each group in its namespace: ~material/
+/// set_parameters, ..., and ~set_parameters for what has no group. They know no lists, so a vector
+/// is a group of x, y and z. dynamic_reconfigure's own server would make room for as many values as
+/// a request says it has.
 ///
 /// dynamic_reconfigure cannot refuse: a change that the simulation refuses is answered with the
 /// values in force, warned of and counted. Values beyond a limit it brings to the limit by itself.
@@ -39,7 +39,7 @@ private:
   void open(const std::string& name, const cloth::LoopTuning& start);
 
   NodeContext context_;
-  boost::recursive_mutex mutex_;  ///< of all servers: what they show is what is in force
+  std::mutex mutex_;  ///< of all groups: what they show is what is in force
   std::vector<std::unique_ptr<Group>> groups_;
 };
 

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
+#include <ros/subscriber.h>
 
 #include <chrono>
 #include <cstdint>
@@ -16,7 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/core/simulation_loop.h"
+#include "cloth_tearing/node/bounded_callbacks.h"
 #include "cloth_tearing/node/cloth_publisher.h"
 #include "cloth_tearing/node/conversions.h"
 #include "cloth_tearing/node/frame_follower.h"
@@ -46,8 +49,7 @@ public:
   {
     using Request = typename Service::Request;
     using Response = typename Service::Response;
-    const boost::function<bool(Request&, Response&)> callback =
-        [this, name, work, effect](Request& request, Response& response)
+    const auto callback = [this, name, work, effect](Request& request, Response& response)
     {
       response.success = true;
       const std::string reason = refusal(name, [&] { work(request, response); });
@@ -60,9 +62,39 @@ public:
       {
         publisher_.touch();
       }
-      return true;
     };
-    services_.push_back(node.advertiseService(name, callback));
+    answer<Service>(node, name, callback);
+  }
+
+  /// The same for a service whose response has no room for a reason: `work(request, response)` does
+  /// not throw.
+  template <class Service, class Work>
+  void answer(ros::NodeHandle& node, const std::string& name, Work work)
+  {
+    ros::AdvertiseServiceOptions options = boundedService<Service>(
+        name, work, [this, name](const std::string& reason) { refuseBytes(name, reason); });
+    services_.push_back(node.advertiseService(options));
+  }
+
+  /// Does `work(message)` with what comes on the topic `name` below `node`'s namespace; whatever it
+  /// throws is the reason of a refusal. Until the last copy of what it returns is gone.
+  template <class Message, class Work>
+  ros::Subscriber listen(ros::NodeHandle& node, const std::string& name, std::uint32_t queue_size,
+                         Work work)
+  {
+    ros::SubscribeOptions options = boundedSubscription<Message>(
+        name, queue_size,
+        [this, name, work](const boost::shared_ptr<const Message>& message)
+        { hear(name, [&] { work(*message); }); },
+        [this, name](const std::string& reason) { refuseBytes(name, reason); });
+    return node.subscribe(options);
+  }
+
+  /// Refuses what came as a request or message of this name and was none. A warning, too: those who
+  /// send such bytes may not read their answer.
+  void refuseBytes(const std::string& name, const std::string& reason)
+  {
+    hear(name, [&] { throw cloth::Refusal(reason); });
   }
 
   /// Does `work`, which came as a message on the topic `name`. Nobody waits for an answer: a
@@ -78,7 +110,7 @@ public:
     }
     else if (mayComplain(name))
     {
-      ROS_WARN_STREAM("A message on " << name << " was refused: " << reason);
+      ROS_WARN_STREAM("What came on " << name << " was refused: " << reason);
     }
     return reason;
   }

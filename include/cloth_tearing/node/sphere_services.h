@@ -1,8 +1,6 @@
 // Requests that put spheres where the cloth may strike them.
 #pragma once
 
-#include <ros/subscriber.h>
-
 #include <vector>
 
 #include "cloth_tearing/node/request_server.h"
@@ -21,11 +19,11 @@ public:
   void throwSphere(const ThrowSphere::Request& request, ThrowSphere::Response& response);
 
 private:
-  void onSpheres(const CollisionSpheres::ConstPtr& message);
+  void setSpheres(const CollisionSpheres& message);
   std::vector<cloth::Sphere> placed(const CollisionSpheres& message) const;
 
   NodeContext context_;
-  ros::Subscriber spheres_;
+  ros::Subscriber subscriber_;
 };
 
 }  // namespace cloth_tearing
