@@ -108,6 +108,9 @@ public:
   /// timeout passes it on.
   void signal(int number) const { kill(pid_, number); }
 
+  /// For signals that timeout cannot pass on: it gets them, too.
+  void signalBoth(int number) const { kill(-pid_, number); }
+
   /// Waits for the end. @return 124 if the deadline ended it
   int exitStatus()
   {

@@ -86,6 +86,7 @@ TEST(ClothYaml, SaysTheDefaults)
   EXPECT_EQ(shipped.marker_rate, compiled.marker_rate);
   EXPECT_EQ(shipped.surface_rate, compiled.surface_rate);
   EXPECT_EQ(shipped.status_rate, compiled.status_rate);
+  EXPECT_EQ(shipped.master_period, compiled.master_period);
 
   EXPECT_EQ(shipped.markers.coloring, compiled.markers.coloring);
   EXPECT_EQ(shipped.markers.checks, compiled.markers.checks);

@@ -141,6 +141,7 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
     , models_(context(), params)
     , spinner_(REQUEST_THREADS, &queue_)
     , step_spinner_(STEP_THREADS, &step_queue_)
+    , watchdog_(node.getNamespace(), std::chrono::duration<double>(params.master_period))
 {
   openRequests();
   publisher_.start(loop_);
@@ -148,12 +149,14 @@ ClothNode::ClothNode(const ros::NodeHandle& node, const NodeParams& params)
   {
     handles_ = std::make_unique<HandleServer>(context(), params.handles, grasps_, spheres_);
   }
+  watchdog_.start();  // before the first request is answered: then it knows all services
   spinner_.start();
   step_spinner_.start();
 }
 
 ClothNode::~ClothNode()
 {
+  watchdog_.stop();  // what is taken back from now on is not registered again
   frames_.stopWaiting();
   loop_.stop();  // whoever waits for it is answered
   handles_.reset();

@@ -4,40 +4,40 @@
 #include <ros/master.h>
 #include <ros/node_handle.h>
 
-#include <csignal>
-#include <ctime>
+#include <chrono>
 #include <exception>
 
+#include "cloth_tearing/node/ending.h"
 #include "cloth_tearing/node/make_cloth_node.h"
+#include "cloth_tearing/node/xmlrpc_peer.h"
 
 namespace
 {
 
-/// The signals that end the node. Blocked in every thread and taken in order by the main one, so
-/// that nothing has to be safe inside a signal handler.
-sigset_t endingSignals()
+using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""s;
+
+bool masterAnswers(const std::atomic<bool>& giving_up)
 {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  return signals;
+  try
+  {
+    return cloth_tearing::XmlRpcPeer(ros::master::getURI(), 2s, giving_up)
+        .call("getPid", {})
+        .has_value();
+  }
+  catch (const cloth_tearing::NoAnswer&)
+  {
+    return false;
+  }
 }
 
-/// Waits a moment for a signal. @return whether one came
-bool signalled(const sigset_t& signals)
+/// @return false if the end came first
+bool waitForMaster(cloth_tearing::Ending& ending)
 {
-  const timespec moment = { 0, 100000000 };
-  return sigtimedwait(&signals, nullptr, &moment) > 0;
-}
-
-/// @return false if a signal came first
-bool waitForMaster(const sigset_t& signals)
-{
-  while (!ros::master::check())
+  while (!masterAnswers(ending.begun()))
   {
     ROS_WARN_STREAM_ONCE("Waiting for the master at " << ros::master::getURI());
-    if (signalled(signals))
+    if (ending.waitFor(100ms))
     {
       return false;
     }
@@ -45,21 +45,24 @@ bool waitForMaster(const sigset_t& signals)
   return true;
 }
 
-void waitForEnd(const sigset_t& signals)
+void waitForEnd(cloth_tearing::Ending& ending)
 {
-  while (ros::ok() && !signalled(signals))
+  while (ros::ok() && !ending.waitFor(100ms))
   {
   }
+  ending.begin();
 }
 
 /// @return exit status
-int run(const sigset_t& signals)
+int run(cloth_tearing::Ending& ending)
 {
   const ros::NodeHandle node("~");  // outlives the complaint: without one, roscpp is mute
   try
   {
     const auto cloth = cloth_tearing::makeClothNode(node);
-    waitForEnd(signals);
+    // What is opened later does not wait for a master that is gone: the watchdog registers it.
+    ros::master::setRetryTimeout(ros::WallDuration(0.1));
+    waitForEnd(ending);
   }
   catch (const std::exception& error)
   {
@@ -73,8 +76,7 @@ int run(const sigset_t& signals)
 
 int main(int argc, char** argv)
 {
-  const sigset_t signals = endingSignals();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // before there are threads: they inherit it
+  cloth_tearing::Ending ending(2s);
   try
   {
     ros::init(argc, argv, "cloth", ros::init_options::NoSigintHandler);
@@ -84,11 +86,11 @@ int main(int argc, char** argv)
     ROS_FATAL_STREAM(error.what());
     return 1;
   }
-  if (!waitForMaster(signals))
+  if (!waitForMaster(ending))
   {
     return 0;
   }
-  const int status = run(signals);
+  const int status = run(ending);
   ros::shutdown();
   return status;
 }

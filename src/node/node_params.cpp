@@ -179,6 +179,7 @@ std::vector<std::string> problems(const NodeParams& params)
   check(found, "marker_rate [Hz]", params.marker_rate, Range::between(0.1, 1000.0));
   check(found, "surface_rate [Hz]", params.surface_rate, Range::between(0.1, 1000.0));
   check(found, "status_rate [Hz]", params.status_rate, Range::between(0.1, 1000.0));
+  check(found, "master_period [s]", params.master_period, Range::between(0.1, 3600.0));
   append(found, "markers/", problems(params.markers));
   append(found, "handles/", problems(params.handles));
   if (!params.model_file.empty())

@@ -37,6 +37,7 @@ void readNode(ParamReader& reader, NodeParams& params)
   reader.read("marker_rate", params.marker_rate);
   reader.read("surface_rate", params.surface_rate);
   reader.read("status_rate", params.status_rate);
+  reader.read("master_period", params.master_period);
   reader.read("state_folder", params.states.folder);
   reader.read("max_states", params.states.max_states);
   reader.read("max_state_memory", params.states.max_state_memory);

@@ -17,6 +17,7 @@
 #include "cloth_tearing/node/grasp_services.h"
 #include "cloth_tearing/node/handle_server.h"
 #include "cloth_tearing/node/live_tuning.h"
+#include "cloth_tearing/node/master_watchdog.h"
 #include "cloth_tearing/node/model_services.h"
 #include "cloth_tearing/node/node_params.h"
 #include "cloth_tearing/node/pull_server.h"
@@ -75,6 +76,7 @@ private:
   std::unique_ptr<HandleServer> handles_;  ///< none unless wanted
   ros::AsyncSpinner spinner_;
   ros::AsyncSpinner step_spinner_;
+  MasterWatchdog watchdog_;
 };
 
 }  // namespace cloth_tearing

@@ -93,6 +93,7 @@ struct NodeParams
   double marker_rate = 30.0;       ///< ~markers at most so often [Hz], 0.1 to 1000
   double surface_rate = 30.0;      ///< ~surface at most so often [Hz], 0.1 to 1000
   double status_rate = 10.0;       ///< ~status so often [Hz], 0.1 to 1000
+  double master_period = 2.0;  ///< asks the master so often whether it knows it [s], 0.1 to 3600
   MarkerStyle markers;
   HandleParams handles;
 };
