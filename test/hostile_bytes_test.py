@@ -148,6 +148,15 @@ def send(connection, data):
         connection.sendall(data)
 
 
+@contextlib.contextmanager
+def trying(*what):
+    """Says of a failure what it is about. (rostest hides the failures of subtests.)"""
+    try:
+        yield
+    except (AssertionError, OSError) as error:
+        raise AssertionError(f"{what}: {error}") from error
+
+
 class Stopwatch:
     """The longest that anything took to be answered or dropped [s]."""
 
@@ -273,7 +282,7 @@ class HostileBytesTest(unittest.TestCase):
         tried = 0
         for name, about in self.services():
             example = Example(roslib.message.get_service_class(about["type"])._request_class)
-            with self.subTest(name), connect(self.node.address(name)) as connection:
+            with trying(name), connect(self.node.address(name)) as connection:
                 send(connection, header(callerid=ME, service=name, md5sum=about["md5sum"],
                                         persistent=1))
                 self.assertIn(b"md5sum", read_block(connection))
@@ -291,7 +300,7 @@ class HostileBytesTest(unittest.TestCase):
         tried = 0
         for topic in self.node.names(1):
             example = Example(roslib.message.get_message_class(types[topic]))
-            with self.subTest(topic), Publisher(self.node, topic, types[topic]) as connection:
+            with trying(topic), Publisher(self.node, topic, types[topic]) as connection:
                 send(connection, header(callerid=ME, type=types[topic], md5sum="*"))
                 for body in example.malformed():
                     before = self.node.refused()
@@ -315,7 +324,7 @@ class HostileBytesTest(unittest.TestCase):
 
     def test_requests_of_too_many_bytes_are_dropped(self):
         for name, about in self.services():
-            with self.subTest(name), connect(self.node.address(name)) as connection:
+            with trying(name), connect(self.node.address(name)) as connection:
                 send(connection, header(callerid=ME, service=name, md5sum=about["md5sum"]))
                 self.assertIn(b"md5sum", read_block(connection))
                 with Stopwatch.lap():
@@ -325,7 +334,7 @@ class HostileBytesTest(unittest.TestCase):
     def test_messages_of_too_many_bytes_are_dropped(self):
         types = dict(self.node.master.getTopicTypes())
         for topic in self.node.names(1):
-            with self.subTest(topic), Publisher(self.node, topic, types[topic]) as connection:
+            with trying(topic), Publisher(self.node, topic, types[topic]) as connection:
                 send(connection, header(callerid=ME, type=types[topic], md5sum="*"))
                 with Stopwatch.lap():
                     send(connection, struct.pack("<I", 0xffffffff))
@@ -344,7 +353,7 @@ class HostileBytesTest(unittest.TestCase):
             if OF_LIBRARIES.fullmatch(topic):
                 continue
             body = Example(roslib.message.get_message_class(types[topic])).bytes
-            with self.subTest(topic), Publisher(self.node, topic, types[topic]) as connection:
+            with trying(topic), Publisher(self.node, topic, types[topic]) as connection:
                 send(connection, header(callerid=ME, type=types[topic], md5sum=UNKNOWN_MD5SUM))
                 before = self.node.status.refusals
                 with Stopwatch.lap():
@@ -353,19 +362,19 @@ class HostileBytesTest(unittest.TestCase):
                 self.assertIn(UNKNOWN_MD5SUM, self.node.status.last_refusal)
 
     def expect_error(self, address, **fields):
-        with self.subTest(**fields), connect(address) as connection, Stopwatch.lap():
+        with trying(fields), connect(address) as connection, Stopwatch.lap():
             send(connection, header(callerid=ME, **fields))
             self.assertIn(b"error=", read_block(connection))
             self.assertTrue(is_dropped(connection))
 
     def test_garbage_instead_of_a_header_is_dropped(self):
         for garbage in GARBAGE:
-            with self.subTest(garbage), connect(self.node.address()) as connection, Stopwatch.lap():
+            with trying(garbage), connect(self.node.address()) as connection, Stopwatch.lap():
                 send(connection, garbage)
                 self.assertTrue(is_dropped(connection))
         types = dict(self.node.master.getTopicTypes())
         for topic, garbage in zip(self.node.names(1), itertools.cycle(GARBAGE)):
-            with self.subTest(topic=topic, garbage=garbage), \
+            with trying(topic, garbage), \
                     Publisher(self.node, topic, types[topic]) as connection, Stopwatch.lap():
                 send(connection, garbage)
                 self.assertTrue(is_dropped(connection))

@@ -1,9 +1,10 @@
-// Moves data of grasps and pulls between the core's types and the messages.
+// Moves data of grasps and pulls between the core's types and the messages, and begins pulls.
 #include "cloth_tearing/node/grasp_conversions.h"
 
 #include <limits>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/refusal.h"
 
 namespace cloth_tearing
 {
@@ -304,6 +305,21 @@ cloth::GraspRequest graspOf(const PullGoal& goal, const cloth::Pose& to_cloth)
   grasp.radius = goal.radius;
   grasp.frame.position = grasp.point;
   return grasp;
+}
+
+std::uint64_t beginPull(cloth::Simulation& simulation, const PullGoal& goal,
+                        const cloth::Pose& to_cloth)
+{
+  if (goal.grasp_id != 0)
+  {
+    return simulation.pull(toCore(goal, to_cloth, simulation.findGrasp(goal.grasp_id)));
+  }
+  const cloth::GraspRequest wish = graspOf(goal, to_cloth);
+  cloth::Grasp wished;
+  wished.pose = wish.frame;
+  cloth::refuseIf(problems(toCore(goal, to_cloth, wished).target));
+  const std::uint64_t grasp = simulation.grasp(wish).id;
+  return simulation.pull(toCore(goal, to_cloth, simulation.findGrasp(grasp)));
 }
 
 }  // namespace cloth_tearing

@@ -20,23 +20,6 @@ constexpr std::chrono::milliseconds IDLE(1000);
 constexpr std::size_t MOST_PREDICTIONS = 4;  // at once
 constexpr int GIVING_WAY = 10;               // nice value of a prediction's thread
 
-/// Takes hold of the cloth first if the goal asks for it. What is refused changes nothing.
-/// @return the id of the pull
-std::uint64_t beginPull(cloth::Simulation& simulation, const PullGoal& goal,
-                        const cloth::Pose& to_cloth)
-{
-  if (goal.grasp_id != 0)
-  {
-    return simulation.pull(toCore(goal, to_cloth, simulation.findGrasp(goal.grasp_id)));
-  }
-  const cloth::GraspRequest wish = graspOf(goal, to_cloth);
-  cloth::Grasp wished;
-  wished.pose = wish.frame;
-  cloth::refuseIf(problems(toCore(goal, to_cloth, wished).target));
-  const std::uint64_t grasp = simulation.grasp(wish).id;
-  return simulation.pull(toCore(goal, to_cloth, simulation.findGrasp(grasp)));
-}
-
 template <class GoalHandle>
 bool isCancelled(const GoalHandle& handle)
 {

@@ -1,4 +1,4 @@
-// Moves data of grasps and pulls between the core's types and the messages. Pure functions.
+// Moves data of grasps and pulls between the core's types and the messages, and begins pulls.
 #pragma once
 
 #include <cloth_tearing/GraspEvents.h>
@@ -9,6 +9,7 @@
 #include <cloth_tearing/PullGoal.h>
 #include <cloth_tearing/PullResult.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,11 @@ cloth::PullRequest toCore(const PullGoal& goal, const cloth::Pose& to_cloth,
 
 /// What a pull without a grasp takes hold of first.
 cloth::GraspRequest graspOf(const PullGoal& goal, const cloth::Pose& to_cloth);
+
+/// Takes hold of the cloth first if the goal asks for it.
+/// @return the id of the pull
+/// @throws cloth::Refusal and nothing has changed
+std::uint64_t beginPull(cloth::Simulation& simulation, const PullGoal& goal,
+                        const cloth::Pose& to_cloth);
 
 }  // namespace cloth_tearing
