@@ -395,7 +395,7 @@ TEST_F(GraspInterface, RefusesPullsThatMakeNoSenseAndChangesNothing)
     { [](PullGoal& g) { g.grasp_id = 99; }, "there is no grasp 99" },
     { [](PullGoal& g) { g.linear_speed = 0.0; }, "linear_speed [m/s] is 0" },
     { [](PullGoal& g) { g.distance = -1.0; }, "distance [m] is -1" },
-    { [](PullGoal& g) { g.direction.z = 0.0; }, "direction is 0" },
+    { [](PullGoal& g) { g.direction.z = 0.0; }, "direction: its length is 0" },
     { [](PullGoal& g) { g.direction.x = NAN; }, "direction" },
     { [](PullGoal& g) { g.stop_force = -2.0; }, "stop_force [N] is -2" },
     { [](PullGoal& g) { g.header.frame_id = ""; }, "header.frame_id is empty" },

@@ -142,7 +142,7 @@ std::uint64_t SphereSet::throwOne(const ThrowRequest& request)
   sphere.mass = request.mass;
   sphere.time_left = request.lifetime;
   std::vector<std::string> found = problems(sphere);
-  check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, 1e6));
+  check(found, "lifetime [s]", request.lifetime, Range::aboveUpTo(0.0, MAX_LIFETIME));
   refuseIf(found);
   spheres_.push_back(sphere);
   return next_thrown_++;

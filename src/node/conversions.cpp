@@ -366,7 +366,7 @@ std::vector<std::string> problems(const ThrowSphere::Request& request)
   check(found, "velocity", toVector(request.velocity), FINITE.high);
   check(found, "radius [m]", request.radius, FINITE);
   check(found, "mass [kg]", request.mass, FINITE);
-  check(found, "lifetime [s]", request.lifetime, FINITE);
+  check(found, "lifetime [s]", request.lifetime, Range::between(0.0, cloth::MAX_LIFETIME));
   return found;
 }
 

@@ -18,6 +18,13 @@ bool same(const cloth::Pose& a, const cloth::Pose& b)
   return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
+/// How much later `late` is than `early` [s]. Stamps come from outside: the difference of two may be
+/// more than a ros::Duration holds, which then throws.
+double secondsBetween(const ros::Time& early, const ros::Time& late)
+{
+  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(late.toNSec() - early.toNSec()));
+}
+
 }  // namespace
 
 FrameFollower::FrameFollower(const Frames& frames, const NodeParams& params)
@@ -85,7 +92,7 @@ const FrameFollower::Sighting& FrameFollower::look(const std::string& frame)
                    !same(latest.pose, sighting.latest.pose);
   if (sighting.fresh)
   {
-    const double interval = (latest.stamp - sighting.latest.stamp).toSec();
+    const double interval = secondsBetween(sighting.latest.stamp, latest.stamp);
     sighting.interval =
         known && interval > 0.0 ? std::min(interval, cloth::LONGEST_GLIDE) : cloth::LONGEST_GLIDE;
     sighting.latest = latest;
@@ -99,7 +106,7 @@ std::string FrameFollower::lossOf(const Frames::Latest& latest) const
   {
     return latest.problem;
   }
-  const double age = (ros::Time::now() - latest.stamp).toSec();
+  const double age = secondsBetween(latest.stamp, ros::Time::now());
   return age > timeout_ ? "its newest transform is " + cloth::text(age) +
                               " s old, beyond frame_timeout = " + cloth::text(timeout_) + " s"
                         : "";

@@ -46,7 +46,7 @@ cloth::Pose Frames::toCloth(const std::string& frame, const ros::Time& stamp,
   // tf2 itself is never asked to wait: it would on ROS time, which may stand still.
   const auto deadline = std::chrono::steady_clock::now() + patience_;
   std::string why;
-  while (!buffer_.canTransform(placement_.frame_id, frame, stamp, &why))
+  while (!canTransform(frame, stamp, why))
   {
     if (!waiting_ || std::chrono::steady_clock::now() > deadline)
     {
@@ -61,9 +61,23 @@ cloth::Pose Frames::toCloth(const std::string& frame, const ros::Time& stamp,
     return toClothFrame(buffer_.lookupTransform(placement_.frame_id, frame, stamp).transform,
                         placement_);
   }
-  catch (const tf2::TransformException& error)  // it went out of the buffer just now
+  catch (const std::exception& error)  // it went out of the buffer just now
   {
     throw cloth::Refusal(field + ": " + std::string(error.what()));
+  }
+}
+
+/// @param why is told why not
+bool Frames::canTransform(const std::string& frame, const ros::Time& stamp, std::string& why) const
+{
+  try
+  {
+    return buffer_.canTransform(placement_.frame_id, frame, stamp, &why);
+  }
+  catch (const std::exception& error)  // stamps further apart than a ros::Duration holds
+  {
+    why = error.what();
+    return false;
   }
 }
 
@@ -81,7 +95,7 @@ Frames::Latest Frames::latest(const std::string& frame) const
     latest.pose = toClothFrame(found.transform, placement_);
     latest.stamp = found.header.stamp;
   }
-  catch (const tf2::TransformException& error)
+  catch (const std::exception& error)
   {
     latest.problem = error.what();
   }

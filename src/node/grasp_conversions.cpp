@@ -95,16 +95,21 @@ GraspState toMessage(const cloth::Grasp& grasp, double utilisation, const Placem
   return message;
 }
 
+/// Neither tiny nor huge numbers lose it on the way.
+double lengthOf(const geometry_msgs::Vector3& direction)
+{
+  return toVector(direction).stableNorm();
+}
+
 void checkWay(std::vector<std::string>& found, const PullGoal& goal)
 {
-  check(found, "distance [m]", goal.distance, Range::atLeast(0.0));
+  check(found, "distance [m]", goal.distance, Range::between(0.0, 2.0 * cloth::MAX_COORDINATE));
   check(found, "direction", toVector(goal.direction), FINITE.high);
   check(found, "target.position", toVector(goal.target.position), FINITE.high);
   checkOrientation(found, "target.orientation", goal.target.orientation);
-  if (goal.distance > 0.0 && toVector(goal.direction).isZero(0.0))
+  if (goal.distance > 0.0 && found.empty())
   {
-    found.push_back("direction is 0, must lead somewhere: distance is " +
-                    cloth::text(goal.distance) + " m");
+    check(found, "direction: its length", lengthOf(goal.direction), Range::above(0.0));
   }
 }
 
@@ -284,7 +289,7 @@ cloth::PullRequest toCore(const PullGoal& goal, const cloth::Pose& to_cloth,
   }
   if (goal.distance > 0.0)
   {
-    const cloth::Vec3d direction = toVector(goal.direction).normalized();
+    const cloth::Vec3d direction = toVector(goal.direction) / lengthOf(goal.direction);
     pull.target.pose = taken.pose;
     pull.target.pose.position += goal.distance * (to_cloth.rotation * direction);
   }
@@ -315,6 +320,9 @@ std::uint64_t beginPull(cloth::Simulation& simulation, const PullGoal& goal,
     return simulation.pull(toCore(goal, to_cloth, simulation.findGrasp(goal.grasp_id)));
   }
   const cloth::GraspRequest wish = graspOf(goal, to_cloth);
+  std::vector<std::string> found;
+  check(found, "point [m]", wish.point, cloth::MAX_COORDINATE);
+  cloth::refuseIf(found);
   cloth::Grasp wished;
   wished.pose = wish.frame;
   cloth::refuseIf(problems(toCore(goal, to_cloth, wished).target));

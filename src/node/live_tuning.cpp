@@ -178,6 +178,31 @@ struct ToShown
   }
 };
 
+template <class Values>
+void noteStrangers(std::vector<std::string>& found, const Values& wanted, const Values& known)
+{
+  for (const auto& value : wanted)
+  {
+    const auto same = [&value](const auto& other) { return other.name == value.name; };
+    if (std::none_of(known.begin(), known.end(), same))
+    {
+      found.push_back("there is no parameter \"" + value.name.substr(0, 100) + "\" of this type");
+    }
+  }
+}
+
+/// What is wrong with the names of what is wanted.
+std::vector<std::string> strangersOf(const dynamic_reconfigure::Config& wanted,
+                                     const dynamic_reconfigure::Config& known)
+{
+  std::vector<std::string> found;
+  noteStrangers(found, wanted.bools, known.bools);
+  noteStrangers(found, wanted.ints, known.ints);
+  noteStrangers(found, wanted.strs, known.strs);
+  noteStrangers(found, wanted.doubles, known.doubles);
+  return found;
+}
+
 }  // namespace
 
 class LiveTuning::Group
@@ -215,28 +240,30 @@ public:
   }
 
 private:
-  /// @param wanted some or all values, each brought to its limits
+  /// @param wanted some or all values
   void set(dynamic_reconfigure::Config& wanted, dynamic_reconfigure::Config& in_force)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     Config config = in_force_;
+    in_force_.__toMessage__(in_force);
     config.__fromMessage__(wanted);
-    config.__clamp__();
-    if (in_force_.__level__(config) != 0)  // else nothing changes
+    if (in_force_.__level__(config) != 0 || !strangersOf(wanted, in_force).empty())
     {
-      change(config);
+      change(config, strangersOf(wanted, in_force));
     }
     tell();
     in_force_.__toMessage__(in_force);
   }
 
-  void change(Config& wanted)
+  void change(Config& wanted, const std::vector<std::string>& problems)
   {
-    const std::string reason = context_.requests.refusal(request_, [&] { tune(wanted); });
-    if (!reason.empty())
+    const auto work = [&]
     {
-      ROS_WARN_STREAM(context_.node.getNamespace()
-                      << "/" << request_ << " was refused, the values stay: " << reason);
+      cloth::refuseIf(problems);
+      tune(wanted);
+    };
+    if (!context_.requests.hear(request_, work).empty())
+    {
       return;
     }
     in_force_ = wanted;

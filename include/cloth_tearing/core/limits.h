@@ -32,6 +32,7 @@ constexpr double MAX_PARTICLE_SPEED = 10000;  ///< [m/s]
 constexpr double MAX_SPHERE_SPEED = 1000;     ///< [m/s]
 constexpr double MAX_GRIPPER_SPEED = 100;     ///< [m/s]
 constexpr double MAX_GRIPPER_TURN = 100;      ///< [rad/s]
+constexpr double MAX_LIFETIME = 1e6;          ///< of a thrown sphere [s]
 constexpr double MAX_FORCE = 1e6;             ///< that a grasp lets go or a pull stops at [N]
 
 // -- limits that may be set -----------------------------------------------------------------------

@@ -47,6 +47,8 @@ public:
   void stopWaiting() { waiting_ = false; }
 
 private:
+  bool canTransform(const std::string& frame, const ros::Time& stamp, std::string& why) const;
+
   Placement placement_;
   std::chrono::duration<double> patience_;
   std::atomic<bool> waiting_{ true };
