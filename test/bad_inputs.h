@@ -193,7 +193,7 @@ private:
   ros::Subscriber subscriber_;
 };
 
-/// Everything that an answer must be refused for is preceded by this: the cloth as it was built.
+/// Brings back the cloth as it was built.
 void resetCloth();
 
 /// Takes hold of the middle of the lower edge. @return the grasp

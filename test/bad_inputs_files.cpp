@@ -35,28 +35,20 @@ std::string contentOf(const fs::path& path)
   return bytes.str();
 }
 
-/// What cannot be read as a file, under names with `ending`. Root may read everything: without
-/// permission only for others.
-struct Obstacle
-{
-  std::string name;
-  std::vector<std::string> words;
-};
-
-std::vector<Obstacle> putObstacles(const fs::path& folder, const std::string& ending)
+/// Puts what cannot be read as a file into a folder. Root may read everything: a file without
+/// permission is only for others. @return their names, without the ending
+std::vector<std::string> putObstacles(const fs::path& folder, const std::string& ending)
 {
   fs::create_directories(folder / ("folder" + ending));
   mkfifo((folder / ("pipe" + ending)).c_str(), 0600);
   fs::create_symlink("nowhere", folder / ("dangling" + ending));
   fs::create_symlink("loop" + ending, folder / ("loop" + ending));
-  std::vector<Obstacle> obstacles = {
-    { "folder", {} }, { "pipe", {} }, { "dangling", {} }, { "loop", {} }, { "missing", {} }
-  };
+  std::vector<std::string> obstacles = { "folder", "pipe", "dangling", "loop", "missing" };
   if (geteuid() != 0)
   {
     put(folder / ("secret" + ending), SQUARE);
     chmod((folder / ("secret" + ending)).c_str(), 0);
-    obstacles.push_back({ "secret", {} });
+    obstacles.emplace_back("secret");
   }
   return obstacles;
 }
@@ -131,10 +123,9 @@ TEST_F(BadFiles, OfModels)
   inputs.push_back(badModel("link", model("out.obj"), { "model out.obj leads out of" }));
   inputs.push_back(
       badModel("link", model("up/outside.obj"), { "model up/outside.obj leads out of" }));
-  for (const Obstacle& obstacle : putObstacles(root / "models", ".obj"))
+  for (const std::string& obstacle : putObstacles(root / "models", ".obj"))
   {
-    inputs.push_back(
-        badModel(obstacle.name, model(obstacle.name + ".obj"), { obstacle.name + ".obj" }));
+    inputs.push_back(badModel(obstacle, model(obstacle + ".obj"), { obstacle + ".obj" }));
   }
   const std::string corner = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
   const std::vector<std::pair<std::string, std::string>> contents = {
@@ -273,10 +264,10 @@ TEST_F(BadFiles, OfStates)
   }
   inputs.push_back(
       badState("restore_state", "unknown", false, { "there is no state \"unknown\"" }));
-  for (const Obstacle& obstacle : putObstacles(states, ".cloth"))
+  for (const std::string& obstacle : putObstacles(states, ".cloth"))
   {
-    inputs.push_back(badState("restore_state", obstacle.name, true,
-                              { "cannot read", obstacle.name + ".cloth" }));
+    inputs.push_back(
+        badState("restore_state", obstacle, true, { "cannot read", obstacle + ".cloth" }));
   }
   inputs.push_back(badState("save_state", "folder", true, { "cannot write", "folder.cloth" }));
 

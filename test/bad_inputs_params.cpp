@@ -57,6 +57,7 @@ std::vector<Parameter> parameters()
     real("command_patience", 0.01, 60),
     whole("max_states", 1, 10000),
     real("max_state_memory", 1, 100000),
+    real("recording_limit", 1, 1000000),
     { "import/scale", Kind::REAL, Range::above(0) },
     { "import/weld_distance", Kind::REAL, Range::atLeast(0) },
     real("rectangle/width", 0.001, 1000),
@@ -118,6 +119,7 @@ std::vector<Parameter> parameters()
     real("marker_rate", 0.1, 1000),
     real("surface_rate", 0.1, 1000),
     real("status_rate", 0.1, 1000),
+    real("master_period", 0.1, 3600),
     whole("markers/checks", 1, 200),
     { "markers/plain_color", Kind::VECTOR, Range::between(0, 1) },
     above("markers/edge_width", 1),
@@ -294,7 +296,7 @@ TEST(BadParameters, AreRefusedInOtherShapes)
     inputs.push_back(bad(name, 1, { "must be true or false" }));
     inputs.push_back(bad(name, "yes", { "must be true or false" }));
   }
-  for (const char* name : { "model_file", "export_folder", "state_folder" })
+  for (const char* name : { "model_file", "export_folder", "state_folder", "recording_folder" })
   {
     inputs.push_back(bad(name, "../elsewhere", { "must be an absolute path" }));
   }
@@ -440,5 +442,11 @@ TEST(BadTuning, IsRefusedOfUnknownNames)
   Tuned tuned;
   expectRefused({ { "stiffness_law",
                     [&] { return tuned.set("material", "stiffness_law", std::string("soft")); },
-                    { "stiffness_law is \"soft\", must be one of per_spring, per_width" } } });
+                    { "stiffness_law is \"soft\", must be one of per_spring, per_width" } },
+                  { "an unknown name",
+                    [&] { return tuned.set("material", "stifness", 120.0); },
+                    { "there is no parameter \"stifness\" of this type" } },
+                  { "another type",
+                    [&] { return tuned.set("material", "stiffness", true); },
+                    { "there is no parameter \"stiffness\" of this type" } } });
 }

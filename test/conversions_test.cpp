@@ -315,10 +315,8 @@ TEST(Requests, LeaveRangesToTheCore)
 
   ThrowSphere::Request ball = throwRequest();
   ball.mass = -1.0;
-  ball.lifetime = -1.0;
   EXPECT_EQ(joined(problems(ball)), "");
   EXPECT_EQ(toCore(ball, cloth::Pose()).mass, -1.0);
-  EXPECT_EQ(toCore(ball, cloth::Pose()).lifetime, -1.0);
 }
 
 TEST(Requests, NameEachFieldThatIsWrong)

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "child_process.h"
 #include "node_client.h"
 
 using cloth_tearing::SimulationStatus;
@@ -98,6 +99,26 @@ TEST(NodeWithoutClock, AnswersAllTheSame)
   EXPECT_TRUE(ask<Trigger>("/stepped/reset").success);
 }
 
+TEST(NodeWithoutClock, IsStartedAnswersAndEndsAtAnyPace)
+{
+  ASSERT_TRUE(ros::Time::now().isZero());
+  for (const char* const name : { "wall", "free", "step", "clock" })
+  {
+    const std::string pace = name;
+    const std::string node = "/timeless_" + pace;
+    ChildProcess process({ CLOTH_TEARING_NODE, "__name:=timeless_" + pace, "_pace:=" + pace,
+                           "_rectangle/columns:=5", "_rectangle/rows:=5" },
+                         60);
+    EXPECT_TRUE(ask<Trigger>(node + "/pause").success) << pace;
+    const std::uint64_t before = step(node, 0).step;
+    EXPECT_EQ(step(node, 7).step, before + 7) << pace;
+    EXPECT_TRUE(ask<Trigger>(node + "/reset").success) << pace;
+    EXPECT_TRUE(ask<Trigger>(node + "/resume").success) << pace;
+    process.signal(SIGINT);
+    EXPECT_EQ(process.exitStatus(), 0) << pace;
+  }
+}
+
 TEST(NodeWithoutClock, SaysOnDiagnosticsThatItWaits)
 {
   using diagnostic_msgs::DiagnosticArray;
@@ -148,6 +169,32 @@ TEST(NodeWithClock, IsNotCarriedAwayWhenItJumps)
 
   EXPECT_EQ(status.step, begin + 30);
   EXPECT_EQ(status.clock_jumps, 2u);
+}
+
+TEST(NodeWithClock, StepsOnAsOftenAsABagThatLoopsShowsItTo)
+{
+  Followed& cloth = Followed::instance();
+  ASSERT_TRUE(ask<Trigger>("/follower/reset").success);
+  const std::uint64_t jumps = cloth.after(3).clock_jumps;
+  std::uint64_t steps = 0;
+  for (std::uint64_t round = 1; round <= 5; ++round)
+  {
+    cloth.show(2000);  // where the bag begins
+    cloth.await(steps, jumps + round);
+    for (const std::int64_t played : { 1, 20, 21, 60, 100 })
+    {
+      cloth.show(2000 + played);
+    }
+    steps += 100;
+    cloth.await(steps, jumps + round);
+  }
+
+  const SimulationStatus status = cloth.after(3);
+
+  EXPECT_EQ(status.step, 500u);
+  EXPECT_EQ(status.clock_jumps, jumps + 5);
+  ASSERT_TRUE(ask<Trigger>("/stepped/reset").success);
+  EXPECT_EQ(status.state_hash, step("/stepped", 500).state_hash) << "no jump is in the cloth";
 }
 
 TEST(NodeThatTellsTheTime, DoesSoExactlyWithItsSteps)

@@ -18,8 +18,8 @@ bool same(const cloth::Pose& a, const cloth::Pose& b)
   return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-/// How much later `late` is than `early` [s]. Stamps come from outside: the difference of two may be
-/// more than a ros::Duration holds, which then throws.
+/// How much later `late` is than `early` [s]. Stamps come from outside: the difference of two may
+/// be more than a ros::Duration holds, which then throws.
 double secondsBetween(const ros::Time& early, const ros::Time& late)
 {
   return 1e-9 * static_cast<double>(static_cast<std::int64_t>(late.toNSec() - early.toNSec()));

@@ -14,7 +14,9 @@
 #include <ros/console.h>
 #include <ros/publisher.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "cloth_tearing/core/refusal.h"
 #include "cloth_tearing/node/node_params.h"
@@ -247,9 +249,10 @@ private:
     Config config = in_force_;
     in_force_.__toMessage__(in_force);
     config.__fromMessage__(wanted);
-    if (in_force_.__level__(config) != 0 || !strangersOf(wanted, in_force).empty())
+    const std::vector<std::string> strangers = strangersOf(wanted, in_force);
+    if (in_force_.__level__(config) != 0 || !strangers.empty())  // else nothing changes
     {
-      change(config, strangersOf(wanted, in_force));
+      change(config, strangers);
     }
     tell();
     in_force_.__toMessage__(in_force);

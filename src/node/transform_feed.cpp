@@ -3,6 +3,8 @@
 
 #include <ros/console.h>
 
+#include <exception>
+
 #include "cloth_tearing/node/bounded_callbacks.h"
 
 namespace cloth_tearing
