@@ -7,6 +7,7 @@
 
 #include "cloth_tearing/core/mesh_builder.h"
 #include "cloth_tearing/core/simulation.h"
+#include "float_traps.h"
 
 namespace cloth
 {
@@ -171,6 +172,7 @@ inline void storm(Simulation& simulation)
 inline void play(const std::string& name, Simulation simulation, int steps,
                  std::vector<SceneMoment>& moments)
 {
+  const FloatTraps traps;
   std::string fault;
   for (int i = 1; i <= steps && fault.empty(); ++i)
   {

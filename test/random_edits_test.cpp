@@ -614,6 +614,7 @@ private:
 
 TEST(RandomEdits, KeepEveryInvariantOfTheCloth)
 {
+  const FloatTraps traps;
   const char* const thorough = std::getenv("CLOTH_TEARING_THOROUGH");
   const int total = thorough != nullptr && std::string(thorough) == "1" ? THOROUGH_EDITS : EDITS;
   std::array<int, EDIT_KINDS> by_kind{};
@@ -666,6 +667,7 @@ bool takeApart(Cloth& cloth, SpringId& next)
 
 TEST(Cloth, MayBeTakenApartUntilEveryTriangleIsAlone)
 {
+  const FloatTraps traps;
   for (const RectanglePattern pattern :
        { RectanglePattern::ONE_DIAGONAL, RectanglePattern::ALTERNATING,
          RectanglePattern::IRREGULAR })

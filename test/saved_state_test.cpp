@@ -38,6 +38,7 @@ Simulation everythingAtOnce(const determinism::Choice& solver)
 
 std::vector<std::uint64_t> hashesOf(Simulation& simulation, int steps)
 {
+  const FloatTraps traps;
   std::vector<std::uint64_t> hashes;
   for (int i = 0; i < steps; ++i)
   {

@@ -12,6 +12,7 @@
 #include "cloth_tearing/core/mesh_builder.h"
 #include "cloth_tearing/core/pins.h"
 #include "cloth_tearing/core/simulation.h"
+#include "float_traps.h"
 
 namespace cloth
 {
@@ -121,6 +122,7 @@ inline SimulationParams tearable(SolverKind solver = SolverKind::XPBD)
 /// Steps and expects that all goes well.
 inline std::vector<TearEvent> run(Simulation& simulation, int steps)
 {
+  const FloatTraps traps;
   std::vector<TearEvent> tears;
   for (int i = 0; i < steps; ++i)
   {

@@ -126,7 +126,7 @@ private:
   std::vector<int> records_;   ///< by particle: its record there; 0: none
   int holes_ = 0;              ///< lanes of the last group's loose blocks that lost their springs
   int divided_ = 0;            ///< particles when the groups were made
-  Real watched_ = std::numeric_limits<Real>::max();
+  Real watched_ = std::numeric_limits<Real>::infinity();
 };
 
 }  // namespace cloth

@@ -114,7 +114,7 @@ private:
   std::vector<Place> places_;  ///< by SpringId
   int longest_ = 0;
   int longest_copied_ = 0;
-  Real watched_ = std::numeric_limits<Real>::max();
+  Real watched_ = std::numeric_limits<Real>::infinity();
 };
 
 }  // namespace cloth

@@ -115,7 +115,7 @@ void land(float* const position[3], float* const velocity[3], const float* const
       const Vector slip_y = v.y + approach * 0.0f;
       const Vector slip = root(slip_x * slip_x + slip_y * slip_y);
       const Vector rubbed = least(slip, floor.friction * approach);
-      const Vector share = slip > zero ? rubbed / slip : zero;
+      const Vector share = quotient(rubbed, slip);
       const Mask hits = approach > zero;
       const End turn = { hits ? zero - share * slip_x : zero, hits ? zero - share * slip_y : zero,
                          hits ? approach : zero };

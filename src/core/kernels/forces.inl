@@ -18,7 +18,7 @@ inline Force forceOf(const End& a, const End& b, const End& velocity_a, const En
   const Vector length = root(squared);
   const Vector above = load(lanes.stiffness + lane) * (length * (length - load(lanes.rest + lane))) +
                        load(lanes.damping + lane) * dot(force.d, velocity_b - velocity_a);
-  force.factor = squared > Vector{} ? above / squared : Vector{};
+  force.factor = quotient(above, squared);
   force.over = ~(squared <= load(lanes.limit + lane));  // a NaN must not hide
   return force;
 }

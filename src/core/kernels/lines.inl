@@ -64,7 +64,7 @@ inline unsigned climb(Climb& below, const Places& next, const Lanes& lanes, int 
   const Vector share = below.give * coupling * below.inverse;
   const Vector answer = give * coupling;
   const Vector pivot = squared * (give * (below.at.w + next.w) + 1.0f) - answer * share;
-  const Vector inverse = pivot > zero + SMALLEST ? 1.0f / pivot : zero;  // never infinite
+  const Vector inverse = quotient(zero + 1.0f, pivot, SMALLEST);  // never infinite
   const Vector pull =
       (stiffness * stretch + damping * dot(d, moved) + answer * below.pull) * inverse;
   if (before != nullptr)

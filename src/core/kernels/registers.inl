@@ -128,4 +128,11 @@ inline void storeEnd(Float* const axes[3], int first, const End& end)
   store(axes[2] + first, end.z);
 }
 
+/// Zero where `below` is not above `least`: nothing is divided there, so that traps find real mistakes.
+inline Vector quotient(Vector above, Vector below, float least = 0.0f)
+{
+  const Mask divides = below > Vector{} + least;
+  return divides ? above / (divides ? below : Vector{} + 1.0f) : Vector{};
+}
+
 // NOLINTEND

@@ -33,7 +33,7 @@ inline Pull pullOf(const End& way_a, const End& way_b, const End& start_a, const
 
   Pull pull;
   pull.d = d;
-  pull.factor = below > zero ? above / below : zero;
+  pull.factor = quotient(above, below);
   const Vector longest = squared_before > squared ? squared_before : squared;
   pull.over = ~(longest <= load(lanes.limit + lane));  // a NaN must not hide
   pull.held = (wa * wb == zero) & (stiffness > zero);

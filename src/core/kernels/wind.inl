@@ -21,7 +21,6 @@ struct Corners
 
 inline Push pushOf(const Corners& corners, const Air& air, Vector rest_area)
 {
-  const Vector zero = Vector{};
   const End& va = corners.velocity_a;
   const End& vb = corners.velocity_b;
   const End& vc = corners.velocity_c;
@@ -35,8 +34,7 @@ inline Push pushOf(const Corners& corners, const Air& air, Vector rest_area)
   // Overstretched cloth has grown by its holes: no more than its rest area resists the air.
   const Vector area = 0.5f * root(squared);
   const Vector resists = area < rest_area ? area : rest_area;
-  push.factor =
-      squared > zero ? air.drag * third * resists * dot(against, push.normal) / squared : zero;
+  push.factor = quotient(air.drag * third * resists * dot(against, push.normal), squared);
   return push;
 }
 
