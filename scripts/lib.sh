@@ -133,6 +133,19 @@ build()
   cmake --build "$build_dir" --parallel "$(nproc)" --target "$@" || fail "the build failed"
 }
 
+# Builds the targets given in the project of test/sanitized, with clang++ and these sanitizers: a build
+# folder for each kind.
+build_sanitized()  # $1: address,undefined or thread; $2 ...: targets
+{
+  local folder=$build_dir/sanitized/${1%%,*}
+  mkdir -p -- "$folder"
+  cmake -S "$source_dir/test/sanitized" -B "$folder" -G Ninja -DCMAKE_CXX_COMPILER=clang++ \
+    -DSANITIZERS="$1" -DCLOTH_TEARING_MESSAGES="$build_dir/devel/include" \
+    > "$folder/configure.log" 2>&1 ||
+    { cat "$folder/configure.log" >&2; fail "cmake could not configure test/sanitized"; }
+  cmake --build "$folder" --parallel "$(nproc)" --target "${@:2}" || fail "the build failed"
+}
+
 # -- showing things on a display of our own ------------------------------------------------------
 
 # From here on, every process started carries a mark in its environment, and so do its children: by
