@@ -6,8 +6,9 @@
 namespace cloth
 {
 
-/// While it lives, an operation of this thread, or of one that it starts, that has no result, divides
-/// by zero or overflows raises SIGFPE. (Comparisons with NaN, too: not for code that is given some.)
+/// While it lives, an operation of this thread, or of one that it starts, that has no result,
+/// divides by zero or overflows raises SIGFPE. (Comparisons with NaN, too: not for code that is
+/// given some.)
 class FloatTraps
 {
 public:

@@ -131,7 +131,8 @@ protected:
 
   Vec3Array held_;           ///< by particle, of those of inverse mass 0: see heldForce()
   double held_scale_ = 0.0;  ///< to [N]
-  Real watched_ = std::numeric_limits<Real>::infinity();  ///< squared length over squared rest length
+  Real watched_ =
+      std::numeric_limits<Real>::infinity();  ///< squared length over squared rest length
   std::vector<int> stretched_;
 
 private:
