@@ -12,6 +12,7 @@
 
 #include "cloth_tearing/core/cloth.h"
 #include "cloth_tearing/core/pieces.h"
+#include "float_traps.h"
 #include "small_meshes.h"
 
 namespace cloth
