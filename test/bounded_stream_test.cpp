@@ -174,5 +174,14 @@ TEST(BoundedStream, SaysHowManyElementsDoNotFit)
   EXPECT_EQ(numbers.capacity(), 0U);
 }
 
+TEST(BoundedStream, MakesNoRoomForAsManyElementsAsThereAreBytes)
+{
+  std::uint8_t bytes[] = { 8, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8 };
+  std::vector<std::uint32_t> numbers;
+  BoundedStream stream(bytes, sizeof bytes);
+  EXPECT_THROW(stream.next(numbers), MalformedMessage);
+  EXPECT_EQ(numbers.capacity(), 0U);
+}
+
 }  // namespace
 }  // namespace cloth_tearing

@@ -202,6 +202,21 @@ TEST(TearEventMessage, NamesEachKind)
   EXPECT_EQ(toMessage(cloth::TearEvent(), PLACEMENT).path, -1) << "no path";
 }
 
+TEST(TearEventMessage, IsMadeOfEachTearInTheirOrder)
+{
+  std::vector<cloth::TearEvent> events(3);
+  for (std::size_t i = 0; i < events.size(); ++i)
+  {
+    events[i].sequence = 7 + i;
+  }
+  const std::vector<TearEvent> messages = toMessages(events, PLACEMENT);
+  ASSERT_EQ(messages.size(), events.size());
+  for (std::size_t i = 0; i < messages.size(); ++i)
+  {
+    EXPECT_EQ(messages[i].sequence, 7 + i);
+  }
+}
+
 TEST(StatusMessage, CountsTearsByKind)
 {
   StatusSource source;

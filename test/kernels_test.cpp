@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -283,6 +284,32 @@ TEST(Kernels, OfEachInstructionSetGiveTheBitsOfThePlainest)
       World world;
       loop.run(*sets[i], world);
       EXPECT_TRUE(world.bytes() == plain.bytes()) << loop.name << " of " << sets[i]->name;
+    }
+  }
+}
+
+TEST(Kernels, CallNothingCalmThatHoldsANumberWhichIsNone)
+{
+  const Set* const* sets = nullptr;
+  const std::size_t count = available(sets);
+  for (float wrong : { std::nanf(""), HUGE_VALF, -HUGE_VALF })
+  {
+    for (int at = 0; at < 6 * PARTICLES; ++at)
+    {
+      std::vector<float> values(6 * PARTICLES, 0.5F);
+      const float* axes[6];
+      for (int k = 0; k < 6; ++k)
+      {
+        axes[k] = values.data() + k * PARTICLES;
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        values[at] = 0.5F;
+        EXPECT_TRUE(sets[i]->calm(axes, axes + 3, 1.0F, PARTICLES)) << sets[i]->name;
+        values[at] = wrong;
+        EXPECT_FALSE(sets[i]->calm(axes, axes + 3, 1.0F, PARTICLES))
+            << sets[i]->name << ", axis " << at / PARTICLES << ", " << wrong;
+      }
     }
   }
 }

@@ -1092,6 +1092,23 @@ TEST(Grasp, KeepsTheSideThatThePullDoesNotTakeAwayWhereItHoldsNoOtherParticle)
   EXPECT_TRUE(holds(grasps[0], { 0 })) << "with the second fan";
 }
 
+TEST(Grasp, KeepsTheSideOfAnyNeighbourThatItHolds)
+{
+  for (int neighbour : { 4, 5, 6 })  // the second fan, from border to border
+  {
+    Cloth cloth = clothOf(bowTie(2, 2));
+    std::vector<Grasp> grasps = { graspOf(3, { 0, neighbour }, cloth) };
+    pullOut(cloth, 5, 1.3);
+    Tearing tearing(rulesOfTheThesis());
+
+    const Pass pass = tearOnce(cloth, tearing, grasps);
+
+    ASSERT_EQ(pass.tears.size(), 1u);
+    EXPECT_TRUE(holds(grasps[0], pass.tears[0].particles[0].id)) << "neighbour " << neighbour;
+    EXPECT_FALSE(holds(grasps[0], { 0 })) << "neighbour " << neighbour;
+  }
+}
+
 TEST(Grasp, KeepsBothSidesOfATearThroughItsPatch)
 {
   Cloth cloth = clothOf(bowTie(2, 2));

@@ -63,6 +63,27 @@ TEST(WorkerPool, DoesEachPieceOnceThoughRoundsOfOtherSizesFollowAtOnce)
   }
 }
 
+TEST(Stretches, CoverEachPlaceOnce)
+{
+  WorkerPool pool(3);
+  for (WorkerPool* workers : { static_cast<WorkerPool*>(nullptr), &pool })
+  {
+    for (int count : { 0, 1, 9, 10, 11, 100, 101 })
+    {
+      std::vector<std::atomic<int>> done(static_cast<std::size_t>(count) + 1);
+      shareStretches(
+          workers, count,
+          [&](int begin, int end)
+          { std::for_each(done.begin() + begin, done.begin() + end, [](auto& n) { ++n; }); },
+          10);
+      for (int i = 0; i <= count; ++i)
+      {
+        EXPECT_EQ(done[i], i < count ? 1 : 0) << "place " << i << " of " << count;
+      }
+    }
+  }
+}
+
 TEST(WorkerPool, ServesACallerWhoComesWhileAnotherIsServed)
 {
   WorkerPool pool(2);
