@@ -19,6 +19,7 @@
 #include "child_process.h"
 #include "cloth_tearing/core/replay.h"
 #include "node_client.h"
+#include "process_of.h"
 
 using namespace cloth_tearing;  // NOLINT: the messages are what all of this is about
 
@@ -33,25 +34,6 @@ Step::Response step(std::uint32_t steps)
   Step::Request request;
   request.steps = steps;
   return ask<Step>(NODE + "/step", request);
-}
-
-/// Of the node itself, not of what watches over it; 0 if nobody answers.
-pid_t processOf(const std::string& node)
-{
-  XmlRpc::XmlRpcValue lookup, answer, uri;
-  lookup[0] = "/tester";
-  lookup[1] = node;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", lookup, answer, uri, false) ||
-      !ros::network::splitURI(static_cast<std::string>(uri), host, port))
-  {
-    return 0;
-  }
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller;
-  caller[0] = "/tester";
-  return client.execute("getPid", caller, answer) ? static_cast<int>(answer[2]) : 0;
 }
 
 class RecordingNode : public testing::Test
