@@ -679,8 +679,7 @@ TEST(EditedCloth, GivesAReleasedSpringATwinThatIsReleasedToo)
 {
   Cloth cloth = clothOf(openFan({ 0, 40, 90, 120, 170 }));
   const SpringId s = springBetween(cloth.mesh, 0, 3);
-  cloth.springs.release(s);
-  cloth.damage.released[s.index] = 1;
+  cloth.release(s);
 
   const Edit edit = cloth.mesh.detachAlong({ 0 }, s);
   cloth.follow(edit);
@@ -689,6 +688,22 @@ TEST(EditedCloth, GivesAReleasedSpringATwinThatIsReleasedToo)
   EXPECT_TRUE(cloth.damage.released[twin]);
   EXPECT_FALSE(cloth.springs.structural[twin].active());
   EXPECT_FALSE(cloth.springs.structural[s.index].active());
+}
+
+TEST(EditedCloth, HasNoBendShearSpringAcrossATriangleThatMayBeDrawnOutToAnyLength)
+{
+  Cloth cloth = clothOf(openFan({ 0, 40, 90 }));
+  const SpringId between = springBetween(cloth.mesh, 0, 2);  // 1 and 3 lie opposite
+
+  cloth.release(springBetween(cloth.mesh, 0, 1));
+  EXPECT_TRUE(cloth.springs.bend_shear[between.index].active()) << "2 still holds 1";
+  cloth.release(springBetween(cloth.mesh, 1, 2));
+  EXPECT_FALSE(cloth.springs.bend_shear[between.index].active()) << "nothing holds 1 any more";
+
+  Material other = cloth.material;
+  other.stiffness *= 2.0;
+  cloth.setMaterial(other);
+  EXPECT_FALSE(cloth.springs.bend_shear[between.index].active()) << "nor with other stiffness";
 }
 
 TEST(EditedCloth, KnowsWhichBordersATearHasOpened)

@@ -639,6 +639,21 @@ TEST(WeakPointTear, DoesNotHappenWhereNothingResists)
   EXPECT_TRUE(tearOnce(cloth, rulesOfTheThesis()).tears.empty());
 }
 
+TEST(WeakPointTear, GivesWayToABasicTearWhereAGripperResistsAndNothingElse)
+{
+  Cloth cloth = weakFan(1.8);
+  pullOut(cloth, 4, 0.8);  // slack
+  pullOut(cloth, 1, 0.95);
+  pullOut(cloth, 3, 0.95);
+  std::vector<Grasp> grasps = { graspOf(3, { 0 }, cloth) };
+  Tearing tearing(rulesOfTheThesis());
+
+  const Pass pass = tearOnce(cloth, tearing, grasps);
+
+  ASSERT_EQ(pass.tears.size(), 1u);
+  EXPECT_EQ(pass.tears[0].kind, TearKind::BASIC);
+}
+
 /// A weak point with nothing between the stretched and the resisting spring.
 Cloth weakCorner(double stretch)
 {

@@ -2,6 +2,7 @@
 #include "cloth_tearing/core/cloth.h"
 
 #include <algorithm>
+#include <array>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/pieces.h"
@@ -49,6 +50,39 @@ Damage undamaged(const Mesh& mesh)
   return damage;
 }
 
+/// Whether the ends of the bend-shear spring that crosses `s` hang together through load-bearing
+/// sides of its two triangles.
+bool isTied(const Mesh& mesh, const std::vector<char>& released, SpringId s)
+{
+  const Spring& spring = mesh.spring(s);
+  std::array<std::array<bool, 2>, 2> holds{};  // each end of `s` to the corner on each side of it
+  for (int side = 0; side < 2; ++side)
+  {
+    for (const SpringId u : mesh.triangle(spring.triangles[side]).springs)
+    {
+      if (u != s)
+      {
+        const int end = mesh.spring(u).joins(spring.particles[1]) ? 1 : 0;
+        holds[side][end] = !released[u.index];
+      }
+    }
+  }
+  const bool by_one_end = (holds[0][0] && holds[1][0]) || (holds[0][1] && holds[1][1]);
+  const bool along = (holds[0][0] || holds[0][1]) && (holds[1][0] || holds[1][1]);
+  return by_one_end || (along && !released[s.index]);
+}
+
+void releaseUntied(Cloth& cloth, const std::vector<SpringId>& some)
+{
+  for (const SpringId s : some)
+  {
+    if (cloth.springs.bend_shear[s.index].active() && !isTied(cloth.mesh, cloth.damage.released, s))
+    {
+      cloth.springs.releaseBendShear(s);
+    }
+  }
+}
+
 }  // namespace
 
 void Cloth::follow(const Edit& edit)
@@ -84,6 +118,7 @@ void Cloth::follow(const Edit& edit)
       springs.release(added.id);
     }
   }
+  releaseUntied(*this, edit.near_springs);
 
   for (ParticleId p : edit.near_particles)
   {
@@ -91,6 +126,20 @@ void Cloth::follow(const Edit& edit)
     damage.hinge[p.index] = mesh.fanCount(p) > 1 ? 1 : 0;
   }
   ++damage.tears;
+}
+
+void Cloth::release(SpringId s)
+{
+  springs.release(s);
+  damage.released[s.index] = 1;
+  for (const TriangleId t : mesh.spring(s).triangles)
+  {
+    if (t.valid())
+    {
+      const auto& sides = mesh.triangle(t).springs;
+      releaseUntied(*this, { sides.begin(), sides.end() });
+    }
+  }
 }
 
 void Cloth::setMaterial(const Material& other)
@@ -103,6 +152,7 @@ void Cloth::setMaterial(const Material& other)
     all[i] = { i };
   }
   springs.refresh(mesh, rest, material, all);
+  releaseUntied(*this, all);
   for (int i = 0; i < mesh.springCount(); ++i)
   {
     if (damage.at_rest[mesh.spring({ i }).particles[0].index])

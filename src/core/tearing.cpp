@@ -278,7 +278,8 @@ bool Tearing::tearSpring(Cloth& cloth, std::vector<Grasp>& grasps, const TearRea
       tearAlong(cloth, grasps, way.at, *path, event);
       return true;
     }
-    held = held || resistanceAt(cloth, way.at, s) > 0.0;
+    // Cloth round a particle in a gripper may be slack: then it is the gripper that resists.
+    held = held || cloth.attachments[way.at.index].held() || resistanceAt(cloth, way.at, s) > 0.0;
   }
   if (!held)
   {
@@ -452,8 +453,7 @@ void Tearing::release(Cloth& cloth, SpringId s, TearEvent& event)
       0.5 *
       (cloth.state.position[ends[0].index] + cloth.state.position[ends[1].index]).cast<double>();
   event.uv = 0.5 * (textureAt(cloth.mesh, t, ends[0]) + textureAt(cloth.mesh, t, ends[1]));
-  cloth.springs.release(s);
-  cloth.damage.released[s.index] = 1;
+  cloth.release(s);
   ++cloth.damage.tears;
   patch_.follow(cloth, {});
   event.pieces = cloth.damage.pieces;

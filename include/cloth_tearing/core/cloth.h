@@ -48,6 +48,10 @@ struct Cloth
   /// position, velocity and (for copies) attachment NONE of their first parent; callers move them.
   void follow(const Edit& edit);
 
+  /// A structural spring carries no load any more. Nor do those bend-shear springs whose ends then
+  /// no load-bearing sides of their two triangles hold together: nothing else limits their length.
+  void release(SpringId s);
+
   /// Makes the cloth of another material: springs and masses anew, torn, held and at rest as it is.
   void setMaterial(const Material& other);
 
