@@ -252,6 +252,27 @@ TEST(LoopCommands, AreBusyAfterTheirPatienceAndNotRunLater)
   EXPECT_FALSE(ran);
 }
 
+TEST(LoopCommands, ThatArePostedHoldUpNobodyAndRunInTheirOrder)
+{
+  Gate gate;
+  SimulationLoop loop(smallSimulation(), options(Pace::STEP),
+                      [&](const Simulation&, const StepReport&) { gate.pass(); });
+  auto stepping = std::async(std::launch::async, [&] { return loop.step(1); });
+  gate.awaitVisitor();
+  std::vector<int> ran;
+  for (int i = 0; i < 3; ++i)
+  {
+    loop.post([&ran, i](Simulation&) { ran.push_back(i); });
+  }
+  EXPECT_TRUE(ran.empty()) << "the loop stands at the gate";
+
+  gate.open();
+  inTime(stepping);
+  EXPECT_EQ(loop.call([&](Simulation&) { return ran; }), (std::vector<int>{ 0, 1, 2 }));
+  loop.stop();
+  EXPECT_THROW(loop.post([](Simulation&) {}), Busy);
+}
+
 TEST(LoopPace, FreeRunsUntilPausedAndGoesOnAfterwards)
 {
   SimulationLoop loop(smallSimulation(), options(Pace::FREE), ignore);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cloth_tearing/core/refusal.h"
 
@@ -30,8 +31,27 @@ void SphereServices::throwSphere(const ThrowSphere::Request& request,
 void SphereServices::setSpheres(const CollisionSpheres& message)
 {
   cloth::refuseIf(problems(message));
-  const std::vector<cloth::Sphere> spheres = placed(message);
-  context_.loop.call([&](cloth::Simulation& simulation) { simulation.setSpheres(spheres); });
+  handOver(placed(message));
+}
+
+/// Puts a set where the loop takes it, in place of one that it has not taken yet. Nobody waits: a
+/// stream that is faster than the steps would wake the waiting thread each time.
+void SphereServices::handOver(std::vector<cloth::Sphere> spheres)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!next_)
+  {
+    context_.loop.post(
+        [this](cloth::Simulation& simulation)
+        { context_.requests.hear("spheres", [&] { simulation.setSpheres(*takeNext()); }); });
+  }
+  next_ = std::move(spheres);
+}
+
+std::optional<std::vector<cloth::Sphere>> SphereServices::takeNext()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(next_, std::nullopt);
 }
 
 /// All spheres where they are now: each in the frame of its own, or in that of the header.

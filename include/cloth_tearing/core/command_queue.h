@@ -68,6 +68,10 @@ public:
     }
   }
 
+  /// Hands `command(Target&)` to the owner and goes on. It must not throw.
+  /// @throws Busy if too many wait, or the queue is closed
+  void post(std::function<void(Target&)> command) { push(std::move(command)); }
+
   /// Runs what is waiting. For the owner.
   void runAll(Target& target)
   {

@@ -108,6 +108,11 @@ public:
     return queue_.call(std::forward<Command>(command), options_.patience);
   }
 
+  /// Has `command` run between two steps and does not wait for that. It must not throw, and is
+  /// dropped if the loop ends first.
+  /// @throws Busy if too many commands wait, or the loop is ending
+  void post(std::function<void(Simulation&)> command) { queue_.post(std::move(command)); }
+
   /// Does `steps` steps and answers when they are done; 0 only asks. Requests are served one
   /// after the other; other commands are taken between their steps.
   /// @throws Refusal unless paused or Pace::STEP

@@ -1,6 +1,8 @@
 // Requests that put spheres where the cloth may strike them.
 #pragma once
 
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "cloth_tearing/node/request_server.h"
@@ -21,8 +23,12 @@ public:
 private:
   void setSpheres(const CollisionSpheres& message);
   std::vector<cloth::Sphere> placed(const CollisionSpheres& message) const;
+  void handOver(std::vector<cloth::Sphere> spheres);
+  std::optional<std::vector<cloth::Sphere>> takeNext();
 
   NodeContext context_;
+  std::mutex mutex_;
+  std::optional<std::vector<cloth::Sphere>> next_;  ///< the loop has not taken; guarded by mutex_
   ros::Subscriber subscriber_;
 };
 
