@@ -56,10 +56,12 @@ protected:
     return testing::TempDir() + "recording_rostest_" + std::to_string(getpid());
   }
 
-  void start()
+  /// @param before what a shell does first
+  void start(const std::string& before = "")
   {
     node_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{ CLOTH_TEARING_NODE, "__name:=recorded" },
+        std::vector<std::string>{ "bash", "-c",
+                                  before + "exec '" CLOTH_TEARING_NODE "' __name:=recorded" },
         static_cast<int>(4 * PATIENCE));
     step(0);
   }
@@ -213,7 +215,19 @@ TEST_F(RecordingNode, GoesOnWithoutARecordingThatIsFull)
   EXPECT_NE(full.recording_problem.find("1000000"), std::string::npos) << full.recording_problem;
   EXPECT_LE(std::filesystem::file_size(file()), 1000000u);
   EXPECT_EQ(end(), 0);
-  EXPECT_GT(replayed().steps, 40000u);
+  EXPECT_GT(replayed().steps, 30000u);
+}
+
+TEST_F(RecordingNode, GoesOnWhereTheSystemLetsFilesGrowNoMore)
+{
+  start("ulimit -f 100; ");
+
+  EXPECT_EQ(step(10000).step, 10000u);
+
+  EXPECT_EQ(end(), 0);
+  const Replayed again = replayed();
+  EXPECT_GT(again.steps, 1000u);
+  EXPECT_LT(again.steps, 10000u);
 }
 
 TEST_F(RecordingNode, RefusesToRunWhereItCannotRecord)

@@ -71,17 +71,8 @@ namespace
 {
 
 constexpr std::uint32_t RECORDING_FORMAT = 1;
-constexpr std::uint64_t HEAD_SIZE = sizeof(std::uint64_t) + sizeof(std::uint8_t);
 constexpr std::uint64_t CHECKSUM_SIZE = sizeof(std::uint64_t);
-
-/// A record up to its checksum.
-std::string headed(RecordKind kind, const std::string& bytes)
-{
-  ArchiveWriter writer;
-  writer("size", static_cast<std::uint64_t>(bytes.size()));
-  writer("kind", static_cast<std::uint8_t>(kind));
-  return writer.take() + bytes;
-}
+constexpr std::uint64_t HEAD_SIZE = sizeof(std::uint64_t) + sizeof(std::uint8_t) + CHECKSUM_SIZE;
 
 std::string numberBytes(std::uint64_t number)
 {
@@ -98,10 +89,19 @@ std::uint64_t numberFrom(const char* bytes)
   return number;
 }
 
-std::uint64_t chained(std::uint64_t before, const std::string& record)
+std::uint64_t chained(std::uint64_t before, const std::string& bytes)
 {
-  const std::string bytes = numberBytes(before) + record;
-  return checksum(bytes.data(), bytes.size());
+  const std::string all = numberBytes(before) + bytes;
+  return checksum(all.data(), all.size());
+}
+
+/// Size and kind with a checksum of their own, so that a damaged size is not taken for the end.
+std::string headOf(std::uint64_t chain, RecordKind kind, std::uint64_t size)
+{
+  ArchiveWriter writer;
+  writer("size", size);
+  writer("kind", static_cast<std::uint8_t>(kind));
+  return writer.bytes() + numberBytes(chained(chain, writer.bytes()));
 }
 
 }  // namespace
@@ -160,9 +160,9 @@ RecordedStep stepFrom(const std::string& bytes)
 
 std::string RecordWriter::framed(RecordKind kind, const std::string& bytes)
 {
-  std::string record = headed(kind, bytes);
-  chain_ = chained(chain_, record);
-  return record + numberBytes(chain_);
+  const std::string head = headOf(chain_, kind, bytes.size());
+  chain_ = chained(numberFrom(head.data() + HEAD_SIZE - CHECKSUM_SIZE), bytes);
+  return head + bytes + numberBytes(chain_);
 }
 
 RecordReader::RecordReader(std::istream& stream) : stream_(stream)
@@ -181,35 +181,54 @@ RecordReader::RecordReader(std::istream& stream) : stream_(stream)
 
 std::optional<Record> RecordReader::next()
 {
-  char head[HEAD_SIZE];
-  if (leftOver() < HEAD_SIZE + CHECKSUM_SIZE || !stream_.read(head, HEAD_SIZE))
+  std::string head(HEAD_SIZE, '\0');
+  if (leftOver() < HEAD_SIZE || !read(head))
   {
     return {};
   }
-  const std::uint64_t size = numberFrom(head);
-  if (size > leftOver() - HEAD_SIZE - CHECKSUM_SIZE)
+  const std::uint64_t size = numberFrom(head.data());
+  const auto kind = static_cast<std::uint8_t>(head[sizeof size]);
+  if (kind > static_cast<std::uint8_t>(RecordKind::STEP) ||
+      head != headOf(chain_, static_cast<RecordKind>(kind), size))
+  {
+    refuseDamaged();
+  }
+  Record record{ static_cast<RecordKind>(kind), {} };
+  std::string told(CHECKSUM_SIZE, '\0');
+  if (leftOver() - HEAD_SIZE < CHECKSUM_SIZE || size > leftOver() - HEAD_SIZE - CHECKSUM_SIZE)
   {
     return {};
   }
-  Record record;
   record.bytes.resize(size);
-  char told[CHECKSUM_SIZE];
-  if (!stream_.read(&record.bytes[0], static_cast<std::streamsize>(size)) ||
-      !stream_.read(told, CHECKSUM_SIZE))
+  if (!read(record.bytes) || !read(told))
   {
     return {};
+  }
+  chain_ = chained(numberFrom(head.data() + HEAD_SIZE - CHECKSUM_SIZE), record.bytes);
+  if (chain_ != numberFrom(told.data()))
+  {
+    refuseDamaged();
   }
   ++count_;
-  const auto kind = static_cast<std::uint8_t>(head[HEAD_SIZE - 1]);
-  record.kind = static_cast<RecordKind>(kind);
-  chain_ = chained(chain_, headed(record.kind, record.bytes));
-  if (chain_ != numberFrom(told) || kind > static_cast<std::uint8_t>(RecordKind::STEP))
-  {
-    throw Refusal("record " + std::to_string(count_) + ", at byte " + std::to_string(position_) +
-                  ", is damaged: its checksum does not match");
-  }
   position_ += HEAD_SIZE + size + CHECKSUM_SIZE;
   return record;
+}
+
+/// @return whether all of `bytes` was there
+bool RecordReader::read(std::string& bytes)
+{
+  stream_.read(&bytes[0], static_cast<std::streamsize>(bytes.size()));
+  if (stream_.bad())
+  {
+    throw Refusal("cannot read on after byte " + std::to_string(position_));
+  }
+  return !stream_.fail();
+}
+
+void RecordReader::refuseDamaged() const
+{
+  throw Refusal("record " + std::to_string(count_ + 1) + ", at byte " + std::to_string(position_) +
+                ", is damaged: its checksum does not match");
 }
 
 }  // namespace cloth

@@ -11,8 +11,15 @@ namespace cloth
 namespace
 {
 
-/// How often the hash of the state is noted, which costs as much as some steps do [steps].
+/// The hash of the state, which costs as much as some steps do, is noted after so many [steps].
 constexpr std::uint64_t HASH_INTERVAL = 500;
+
+/// And after 1, 2, 4, ... of the first ones, so that short runs have some, too.
+bool wantsHash(std::uint64_t steps)
+{
+  const bool power_of_two = (steps & (steps - 1)) == 0;
+  return steps % HASH_INTERVAL == 0 || (steps < HASH_INTERVAL && power_of_two);
+}
 
 }  // namespace
 
@@ -22,12 +29,8 @@ Recorder::Recorder(std::unique_ptr<RecordSink> sink, const RecordedStart& start,
     , writer_(std::make_unique<RecordWriter>())
     , on_problem_(std::move(on_problem))
 {
-  append(
-      [&]
-      {
-        return std::string(RECORDING_MAGIC, sizeof RECORDING_MAGIC) +
-               writer_->framed(RecordKind::START, bytesOf(start));
-      });
+  sink_->append(std::string(RECORDING_MAGIC, sizeof RECORDING_MAGIC) +
+                writer_->framed(RecordKind::START, bytesOf(start)));
 }
 
 Recorder::~Recorder() = default;
@@ -43,7 +46,7 @@ void Recorder::stepped(const Simulation& simulation, const StepReport& report)
       [&]
       {
         RecordedStep step{ {}, report.tears, report.fault };
-        if (++steps_ % HASH_INTERVAL == 0)
+        if (wantsHash(++steps_) || !report.fault.empty())
         {
           step.hash = simulation.stateHash();
         }

@@ -61,7 +61,7 @@ Replay::Replay(std::istream& stream) : reader_(stream), simulation_(begun(reader
 
 bool Replay::step()
 {
-  while (const std::optional<Record> record = reader_.next())
+  while (const std::optional<Record> record = next())
   {
     if (record->kind == RecordKind::STEP)
     {
@@ -71,6 +71,18 @@ bool Replay::step()
     repeatCall(record->bytes);
   }
   return false;
+}
+
+std::optional<Record> Replay::next()
+{
+  try
+  {
+    return reader_.next();
+  }
+  catch (const Refusal& refusal)
+  {
+    throw Refusal(where() + refusal.what());
+  }
 }
 
 std::string Replay::where() const
@@ -106,6 +118,11 @@ void Replay::repeatStep(const std::string& bytes)
     throw Refusal(where() + "the next step differs: " + differs);
   }
   ++steps_;
+  if (recorded.hash)
+  {
+    ++hashes_;
+    last_hash_ = steps_;
+  }
   tears_ += report.tears.size();
   faults_ += report.fault.empty() ? 0 : 1;
 }

@@ -136,7 +136,10 @@ void FrameFollower::moveGrasp(cloth::Simulation& simulation, std::uint64_t id,
     }
     return;
   }
-  simulation.frameLost(id, frame + ": " + loss);
+  if (!was_lost)
+  {
+    simulation.frameLost(id, frame + ": " + loss);
+  }
   if (lost_frame_ == LostFrame::RELEASE)
   {
     simulation.release(id, "the frame that it followed is lost: " + frame + ": " + loss);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "cloth_tearing/core/checks.h"
 #include "cloth_tearing/core/recording_file.h"
@@ -65,8 +66,16 @@ std::string beginRecording(cloth::Simulation& simulation, const cloth::RecordedS
   }
   const std::string path = freePath(params.folder);
   const auto limit = static_cast<std::uint64_t>(MEGABYTE * params.limit);
-  simulation.recordTo(std::make_shared<cloth::Recorder>(
-      std::make_unique<cloth::RecordingFile>(path, limit), start, on_problem));
+  auto file = std::make_unique<cloth::RecordingFile>(path, limit);
+  try
+  {
+    simulation.recordTo(std::make_shared<cloth::Recorder>(std::move(file), start, on_problem));
+  }
+  catch (const std::exception&)  // it says why; an empty file would help nobody
+  {
+    std::filesystem::remove(path, error);
+    throw;
+  }
   return path;
 }
 

@@ -17,25 +17,25 @@ constexpr int DIFFERS = 1;
 constexpr int WRONG_USAGE = 2;
 
 const char USAGE[] =
-    "usage: replay_recording [--steps N] [--save STATE] FILE\n"
+    "usage: replay_recording [--steps N] [--save STATE] FILE...\n"
     "\n"
-    "Does a run again that the node recorded (recording_folder), without ROS and as fast as it\n"
-    "goes, and compares: every tear and fault, and the state hash every 500 steps, have to be\n"
-    "the same, bit for bit.\n"
+    "Does runs again that the node recorded (recording_folder), without ROS and as fast as it\n"
+    "goes, and compares: every tear and fault, and the state hash after 1, 2, 4, ... 256 steps\n"
+    "and then every 500, have to be the same, bit for bit.\n"
     "\n"
     "  --steps N      stop after so many steps, counted over all epochs (default: all)\n"
-    "  --save STATE   save the state in the end to the new file STATE; put as NAME.cloth in a\n"
-    "                 node's state_folder, ~restore_state goes on from there\n"
+    "  --save STATE   save the state in the end to the new file STATE (with one FILE); put as\n"
+    "                 NAME.cloth in a node's state_folder, ~restore_state goes on from there\n"
     "  --help         show this text\n"
     "\n"
-    "Exit status: 0 the run is the same as far as it was written, 1 it differs, or FILE is\n"
-    "damaged or no recording, 2 wrong usage.\n";
+    "Exit status: 0 all are the same as far as they were written, 1 one differs, or is damaged\n"
+    "or no recording, 2 wrong usage.\n";
 
 struct Arguments
 {
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
   std::string save;
-  std::string file;
+  std::vector<std::string> files;
   bool help = false;
 };
 
@@ -77,40 +77,46 @@ Arguments parse(const std::vector<std::string>& words)
     {
       throw std::invalid_argument("unknown option " + word);
     }
-    else if (!arguments.file.empty())
-    {
-      throw std::invalid_argument("one file at a time: " + arguments.file + " or " + word);
-    }
     else
     {
-      arguments.file = word;
+      arguments.files.push_back(word);
     }
   }
-  if (!arguments.help && arguments.file.empty())
+  if (!arguments.help && arguments.files.empty())
   {
     throw std::invalid_argument("no file");
+  }
+  if (!arguments.save.empty() && arguments.files.size() > 1)
+  {
+    throw std::invalid_argument("--save needs one file, there are " +
+                                std::to_string(arguments.files.size()));
   }
   return arguments;
 }
 
-void save(const std::string& path, const std::string& state)
+void refuseExisting(const std::string& path)
 {
   if (std::ifstream(path).good())
   {
-    throw std::runtime_error(path + " exists already");
+    throw std::runtime_error("--save: " + path + " exists already");
   }
+}
+
+void save(const std::string& path, const std::string& state)
+{
   std::ofstream file(path, std::ios::binary);
   file.write(state.data(), static_cast<std::streamsize>(state.size()));
   file.close();
   if (!file)
   {
-    throw std::runtime_error("cannot write " + path);
+    throw std::runtime_error("--save: cannot write " + path);
   }
 }
 
-void replay(const Arguments& arguments)
+void replay(const std::string& path, const Arguments& arguments)
 {
-  std::ifstream file(arguments.file, std::ios::binary);
+  refuseExisting(arguments.save);
+  std::ifstream file(path, std::ios::binary);
   if (!file)
   {
     throw std::runtime_error("cannot read it");
@@ -121,9 +127,10 @@ void replay(const Arguments& arguments)
   {
   }
   const cloth::Simulation& simulation = replay.simulation();
-  std::cout << arguments.file << ": " << replay.steps() << " steps, " << replay.calls()
-            << " calls, " << replay.tears() << " tears, " << replay.faults()
-            << " faults: the same, bit for bit\n"
+  std::cout << path << ": " << replay.steps() << " steps, " << replay.calls() << " calls, "
+            << replay.tears() << " tears, " << replay.faults() << " faults, " << replay.hashes()
+            << " state hashes, the last after " << replay.lastHash()
+            << " steps: the same, bit for bit\n"
             << "epoch " << simulation.epoch() << ", step " << simulation.stepCount() << ", time "
             << simulation.time() << " s, state hash " << simulation.stateHash() << '\n';
   if (!more && replay.leftOver() > 0)
@@ -156,14 +163,18 @@ int main(int argc, char** argv)
     std::cout << USAGE;
     return SAME;
   }
-  try
+  int status = SAME;
+  for (const std::string& path : arguments.files)
   {
-    replay(arguments);
-    return SAME;
+    try
+    {
+      replay(path, arguments);
+    }
+    catch (const std::exception& error)
+    {
+      std::cerr << "replay_recording: " << path << ": " << error.what() << '\n';
+      status = DIFFERS;
+    }
   }
-  catch (const std::exception& error)
-  {
-    std::cerr << "replay_recording: " << arguments.file << ": " << error.what() << '\n';
-    return DIFFERS;
-  }
+  return status;
 }

@@ -58,8 +58,8 @@ struct Record
   std::string bytes;
 };
 
-/// Makes a record of a kind and its bytes: size, kind, bytes, checksum. The checksum covers that of
-/// the record before: none can be lost, doubled or put elsewhere unseen.
+/// Makes a record of a kind and its bytes: size, kind, checksum of these, bytes, checksum of all.
+/// Checksums cover that of the record before: none can be lost, doubled or put elsewhere unseen.
 class RecordWriter
 {
 public:
@@ -89,6 +89,9 @@ public:
   std::uint64_t leftOver() const { return size_ - position_; }
 
 private:
+  bool read(std::string& bytes);
+  [[noreturn]] void refuseDamaged() const;
+
   std::istream& stream_;
   std::uint64_t size_ = 0;      ///< of the whole
   std::uint64_t position_ = 0;  ///< of the next record

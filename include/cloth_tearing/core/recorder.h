@@ -33,6 +33,7 @@ class Recorder
 {
 public:
   /// @param on_problem called once, with the reason, when nothing can be recorded any more
+  /// @throws what the sink throws if it does not even take the beginning
   Recorder(std::unique_ptr<RecordSink> sink, const RecordedStart& start,
            std::function<void(const std::string&)> on_problem);
   Recorder(const Recorder&) = delete;

@@ -31,11 +31,14 @@ public:
   std::uint64_t calls() const { return calls_; }  ///< done
   std::uint64_t tears() const { return tears_; }  ///< that came again
   std::uint64_t faults() const { return faults_; }
+  std::uint64_t hashes() const { return hashes_; }       ///< that came again
+  std::uint64_t lastHash() const { return last_hash_; }  ///< after so many steps
 
   /// Bytes of a record that was not written to its end, once all others have been done.
   std::uint64_t leftOver() const { return reader_.leftOver(); }
 
 private:
+  std::optional<Record> next();
   void repeatCall(const std::string& bytes);
   void repeatStep(const std::string& bytes);
   std::string where() const;
@@ -46,6 +49,8 @@ private:
   std::uint64_t calls_ = 0;
   std::uint64_t tears_ = 0;
   std::uint64_t faults_ = 0;
+  std::uint64_t hashes_ = 0;
+  std::uint64_t last_hash_ = 0;
 };
 
 }  // namespace cloth
