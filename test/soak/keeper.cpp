@@ -61,7 +61,6 @@ private:
     else if (choice < 60)
     {
       save(true);
-      lookAtFile();
     }
     else if (choice < 80)
     {
@@ -109,20 +108,27 @@ private:
     NamedState::Request request;
     request.name = someName();
     request.file = file;
-    saved_ = world_.ask<NamedState>("save_state", request, Expect::SUCCESS);
-    saved_in_ = states_ + "/" + request.name + ".cloth";
+    const auto saved = world_.ask<NamedState>("save_state", request, Expect::SUCCESS);
+    if (!saved.success)
+    {
+      return;
+    }
     (file ? files_ : names_).push_back(request.name);
+    if (file)
+    {
+      lookAtFile(states_ + "/" + request.name + ".cloth", saved.state_hash);
+    }
   }
 
   /// What was saved has to be the cloth whose hash was told, without a defect.
-  void lookAtFile()
+  void lookAtFile(const std::string& path, std::uint64_t told_hash)
   {
-    std::ifstream file(saved_in_, std::ios::binary);
+    std::ifstream file(path, std::ios::binary);
     const std::string bytes{ std::istreambuf_iterator<char>(file), {} };
     try
     {
       cloth::Simulation restored = simulation_.restored(bytes);
-      if (restored.stateHash() != saved_.state_hash)
+      if (restored.stateHash() != told_hash)
       {
         world_.fail("saved state", "has another hash than was told");
       }
@@ -193,8 +199,6 @@ private:
 
   std::string states_;
   cloth::Simulation simulation_;  ///< of the same place as the node's
-  NamedState::Response saved_;
-  std::string saved_in_;
   std::vector<std::string> files_;
   std::vector<std::string> names_;
 };

@@ -29,6 +29,8 @@ const std::string HAND = "soak_hand";  // frame that somebody moves
 const std::vector<std::string> FRAMES = { "world", "world", "world", HAND };
 constexpr int BAD = 8;  // one request of so many is wrong
 
+constexpr double LONGEST_PULL = 60.0;  // on a busy machine; some seconds of the cloth's time [s]
+
 using Time = std::chrono::duration<double>;
 
 // -- grippers -------------------------------------------------------------------------------------
@@ -261,7 +263,7 @@ private:
   /// Waits for its end and looks at it. While the simulation is paused it takes longer.
   void waitFor(Goal& goal, const std::string& name)
   {
-    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(PATIENCE);
+    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(LONGEST_PULL);
     while (goal.getCommState() != actionlib::CommState::DONE)
     {
       if (ros::WallTime::now() > deadline)
