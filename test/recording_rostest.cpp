@@ -115,6 +115,19 @@ private:
   std::unique_ptr<ChildProcess> node_;
 };
 
+/// At the middle of the cloth. @param speed [m/s]
+void throwBall(double speed)
+{
+  ThrowSphere::Request ball;
+  ball.header.frame_id = "world";
+  ball.center.y = -0.5;
+  ball.center.z = 1.2;
+  ball.velocity.y = speed;
+  ball.radius = 0.1;
+  ball.lifetime = 1.0;
+  EXPECT_TRUE(ask<ThrowSphere>(NODE + "/throw_sphere", ball).success);
+}
+
 /// A gripper tears the cloth, a ball flies in.
 void grip()
 {
@@ -133,14 +146,7 @@ void grip()
   drag.angular_speed = 1.0;
   const Drag::Response dragged = ask<Drag>(NODE + "/drag", drag);
   ASSERT_TRUE(dragged.success) << dragged.message;
-  ThrowSphere::Request ball;
-  ball.header.frame_id = "world";
-  ball.center.y = -0.5;
-  ball.center.z = 1.2;
-  ball.velocity.y = 6.0;
-  ball.radius = 0.1;
-  ball.lifetime = 1.0;
-  EXPECT_TRUE(ask<ThrowSphere>(NODE + "/throw_sphere", ball).success);
+  throwBall(6.0);
 }
 
 }  // namespace
@@ -243,14 +249,7 @@ TEST_F(RecordingNode, KeepsTheStateBeforeAFaultWhichComesAgainFromThere)
   ros::param::set(NODE + "/max_speed", 4.0);
   start();
   Collector<SimulationStatus> status(NODE + "/status");
-  ThrowSphere::Request ball;
-  ball.header.frame_id = "world";
-  ball.center.y = -0.5;
-  ball.center.z = 1.2;
-  ball.velocity.y = 9.0;
-  ball.radius = 0.1;
-  ball.lifetime = 1.0;
-  ASSERT_TRUE(ask<ThrowSphere>(NODE + "/throw_sphere", ball).success);
+  throwBall(9.0);
   const Step::Response stopped = step(1000);
   ASSERT_LT(stopped.step, 1000u) << "a fault cuts it short";
   const SimulationStatus fault =
