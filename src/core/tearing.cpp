@@ -14,6 +14,10 @@ namespace
 /// How far a one-point tear may shift its copy, as a fraction of the rest length (3.2.3).
 constexpr double LARGEST_SHIFT = 0.25;
 
+/// How much finer than elsewhere cloth may be split between two particles that are held: no tear
+/// can run past them.
+constexpr double FINER_BETWEEN_HOLDS = 1.0 / 64.0;
+
 /// Lengths in Real are taken for a little longer than they are: rounding must not hide a spring.
 constexpr double ROUNDING = 1.0 - 1e-5;
 
@@ -47,6 +51,25 @@ void weaken(Cloth& cloth, ParticleId p)
 {
   const bool can = !cloth.attachments[p.index].pinned() && !cloth.damage.hinge[p.index];
   cloth.damage.weak[p.index] = can ? 1 : 0;
+}
+
+/// Whether a triangle of the spring has a side that was released. Nothing bounds how far its
+/// corners come apart: springs that began there would be stretched without end.
+bool isBesideReleased(const Cloth& cloth, SpringId s)
+{
+  for (TriangleId t : cloth.mesh.spring(s).triangles)
+  {
+    if (t.valid())
+    {
+      const auto& sides = cloth.mesh.triangle(t).springs;
+      if (std::any_of(sides.begin(), sides.end(),
+                      [&](SpringId side) { return cloth.damage.released[side.index] != 0; }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -300,27 +323,25 @@ bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, do
   {
     return false;
   }
-  if (canSplit(cloth, s))
+  const auto& ends = cloth.mesh.spring(s).particles;
+  const bool between_holds =
+      cloth.attachments[ends[0].index].held() && cloth.attachments[ends[1].index].held();
+  const bool beside_released = isBesideReleased(cloth, s);
+  if (!beside_released && canSplit(cloth, s, 1.0))
   {
     tearAcross(cloth, s, event);
-    return true;
   }
-  // Too fine to split: part the cloth along its springs, at the end that resists more.
-  std::optional<TearPath> best;
-  ParticleId at;
-  for (ParticleId p : cloth.mesh.spring(s).particles)
+  else if (const auto way = wayOut(cloth, s))
   {
-    const auto path =
-        cloth.attachments[p.index].pinned() ? std::nullopt : findTearPath(cloth, p, s);
-    if (path && (!best || path->resistance > best->resistance))
-    {
-      best = path;
-      at = p;
-    }
+    tearAlong(cloth, grasps, way->at, way->path, event);
   }
-  if (best)
+  else if (!beside_released && !between_holds)
   {
-    tearAlong(cloth, grasps, at, *best, event);
+    return false;  // a free end that carries nothing else follows the pull
+  }
+  else if (!beside_released && canSplit(cloth, s, FINER_BETWEEN_HOLDS))
+  {
+    tearAcross(cloth, s, event);
   }
   else
   {
@@ -329,9 +350,35 @@ bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, do
   return true;
 }
 
-bool Tearing::canSplit(const Cloth& cloth, SpringId s) const
+/// How cloth that is too fine to split parts along its springs: at the end that resists more, there
+/// past the triangles of `s` if no tear would run through the fan.
+std::optional<Tearing::WayOut> Tearing::wayOut(const Cloth& cloth, SpringId s)
+{
+  for (const auto find : { findTearPath, findWayPast })
+  {
+    std::optional<WayOut> best;
+    for (ParticleId p : cloth.mesh.spring(s).particles)
+    {
+      const auto path = cloth.attachments[p.index].pinned() ? std::nullopt : find(cloth, p, s);
+      if (path && (!best || path->resistance > best->path.resistance))
+      {
+        best = WayOut{ p, *path };
+      }
+    }
+    if (best)
+    {
+      return best;
+    }
+  }
+  return std::nullopt;
+}
+
+/// @param part of the least length and altitude that the rules ask for [-]
+bool Tearing::canSplit(const Cloth& cloth, SpringId s, double part) const
 {
   const double half = 0.5 * cloth.rest.length[s.index];
+  const double least_length = part * rules_.min_length;
+  const double least_altitude = part * rules_.min_altitude;
   for (TriangleId t : cloth.mesh.spring(s).triangles)
   {
     if (!t.valid())
@@ -346,8 +393,8 @@ bool Tearing::canSplit(const Cloth& cloth, SpringId s) const
     const double altitude = cloth.rest.area[t.index] /
                             std::max({ half, a, b, median });  // of a half: 2 (area / 2) / side
     const double spacing = cloth.rest.spacing[t.index];
-    if (half < rules_.min_length * spacing || median < rules_.min_length * spacing ||
-        altitude < rules_.min_altitude * spacing)
+    if (half < least_length * spacing || median < least_length * spacing ||
+        altitude < least_altitude * spacing)
     {
       return false;
     }

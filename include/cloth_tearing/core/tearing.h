@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cloth_tearing/core/cloth.h"
@@ -78,6 +79,13 @@ private:
     double resistance;
   };
 
+  /// Along which springs sound cloth parts, and at which particle.
+  struct WayOut
+  {
+    ParticleId at;
+    TearPath path;
+  };
+
   double leastRule() const;
   double strength(const Cloth& cloth, SpringId s) const;
   double crackBand(const Cloth& cloth, SpringId s) const;
@@ -100,7 +108,8 @@ private:
                     const Blocked& blocked, TearEvent& event);
   void release(Cloth& cloth, SpringId s, TearEvent& event);
 
-  bool canSplit(const Cloth& cloth, SpringId s) const;
+  static std::optional<WayOut> wayOut(const Cloth& cloth, SpringId s);
+  bool canSplit(const Cloth& cloth, SpringId s, double part) const;
   void relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const;
   void conclude(Cloth& cloth, const Edit& edit, TearEvent& event);
 
