@@ -14,9 +14,8 @@ namespace
 /// How far a one-point tear may shift its copy, as a fraction of the rest length (3.2.3).
 constexpr double LARGEST_SHIFT = 0.25;
 
-/// How much finer than elsewhere cloth may be split between two particles that are held: no tear
-/// can run past them.
-constexpr double FINER_BETWEEN_HOLDS = 1.0 / 64.0;
+/// A free end that is drawn out further than this does not follow the pull: something holds it [-].
+constexpr double MOST_OF_A_FOLLOWER = 1.0;
 
 /// Lengths in Real are taken for a little longer than they are: rounding must not hide a spring.
 constexpr double ROUNDING = 1.0 - 1e-5;
@@ -326,8 +325,9 @@ bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, do
   const auto& ends = cloth.mesh.spring(s).particles;
   const bool between_holds =
       cloth.attachments[ends[0].index].held() && cloth.attachments[ends[1].index].held();
+  const bool follows = !between_holds && cloth.strain(s) <= MOST_OF_A_FOLLOWER;
   const bool beside_released = isBesideReleased(cloth, s);
-  if (!beside_released && canSplit(cloth, s, 1.0))
+  if (!beside_released && canSplit(cloth, s))
   {
     tearAcross(cloth, s, event);
   }
@@ -335,13 +335,9 @@ bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, do
   {
     tearAlong(cloth, grasps, way->at, way->path, event);
   }
-  else if (!beside_released && !between_holds)
+  else if (!beside_released && follows)
   {
-    return false;  // a free end that carries nothing else follows the pull
-  }
-  else if (!beside_released && canSplit(cloth, s, FINER_BETWEEN_HOLDS))
-  {
-    tearAcross(cloth, s, event);
+    return false;  // its free end carries nothing else
   }
   else
   {
@@ -373,12 +369,9 @@ std::optional<Tearing::WayOut> Tearing::wayOut(const Cloth& cloth, SpringId s)
   return std::nullopt;
 }
 
-/// @param part of the least length and altitude that the rules ask for [-]
-bool Tearing::canSplit(const Cloth& cloth, SpringId s, double part) const
+bool Tearing::canSplit(const Cloth& cloth, SpringId s) const
 {
   const double half = 0.5 * cloth.rest.length[s.index];
-  const double least_length = part * rules_.min_length;
-  const double least_altitude = part * rules_.min_altitude;
   for (TriangleId t : cloth.mesh.spring(s).triangles)
   {
     if (!t.valid())
@@ -393,8 +386,8 @@ bool Tearing::canSplit(const Cloth& cloth, SpringId s, double part) const
     const double altitude = cloth.rest.area[t.index] /
                             std::max({ half, a, b, median });  // of a half: 2 (area / 2) / side
     const double spacing = cloth.rest.spacing[t.index];
-    if (half < least_length * spacing || median < least_length * spacing ||
-        altitude < least_altitude * spacing)
+    if (half < rules_.min_length * spacing || median < rules_.min_length * spacing ||
+        altitude < rules_.min_altitude * spacing)
     {
       return false;
     }

@@ -109,7 +109,7 @@ private:
   void release(Cloth& cloth, SpringId s, TearEvent& event);
 
   static std::optional<WayOut> wayOut(const Cloth& cloth, SpringId s);
-  bool canSplit(const Cloth& cloth, SpringId s, double part) const;
+  bool canSplit(const Cloth& cloth, SpringId s) const;
   void relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const;
   void conclude(Cloth& cloth, const Edit& edit, TearEvent& event);
 
