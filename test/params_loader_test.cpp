@@ -440,6 +440,7 @@ TEST(LimitWords, TellEachLimitAndHowFarItMayBeRaised)
   cloth_tearing::NodeParams params;
   params.max_model_file = 2.5;
   params.simulation.limits.spheres = 7;
+  params.recording.limit = 30.0;
 
   const std::string words = cloth_tearing::limitsInWords(params);
 
@@ -453,4 +454,5 @@ TEST(LimitWords, TellEachLimitAndHowFarItMayBeRaised)
   }
   EXPECT_NE(words.find("\n  limits/spheres: 7 of 1000\n"), std::string::npos) << words;
   EXPECT_NE(words.find("\n  limits/model_file [MB]: 2.5 of 1000\n"), std::string::npos) << words;
+  EXPECT_NE(words.find("\n  recording_limit [MB]: 30 of 1000000\n"), std::string::npos) << words;
 }

@@ -37,6 +37,7 @@ std::string limitsInWords(const NodeParams& params)
     { "limits/commands", double(params.max_commands), cloth::MAX_COMMANDS },
     { "max_state_memory [MB]", params.states.max_state_memory, cloth::MAX_STATE_FILE },
     { "max_states", double(params.states.max_states), cloth::MAX_STATES },
+    { "recording_limit [MB]", params.recording.limit, cloth::MAX_RECORDING },
     { "tear_log_size", double(simulation.tear_log_size), cloth::MAX_EVENTS_LOGGED },
     { "tearing/max_tears_per_step", double(simulation.tearing.max_tears_per_step),
       cloth::MAX_TEARS_PER_STEP },

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cloth_tearing/core/checks.h"
+#include "cloth_tearing/core/limits.h"
 #include "cloth_tearing/core/recording_file.h"
 #include "cloth_tearing/core/refusal.h"
 
@@ -49,7 +50,8 @@ std::vector<std::string> problems(const RecordingParams& params)
     found.push_back("recording_folder is \"" + params.folder +
                     "\", must be an absolute path or empty");
   }
-  check(found, "recording_limit [MB]", params.limit, cloth::Range::between(1.0, 1e6));
+  check(found, "recording_limit [MB]", params.limit,
+        cloth::Range::between(1.0, cloth::MAX_RECORDING));
   return found;
 }
 

@@ -18,6 +18,7 @@ constexpr int MAX_SPHERES = 1000;        ///< at once, streamed and thrown ones 
 constexpr int MAX_GRASPS = 1000;         ///< at once
 constexpr double MAX_MODEL_FILE = 1000;  ///< [MB]
 constexpr double MAX_STATE_FILE = 1e5;   ///< and all states in memory together [MB]
+constexpr double MAX_RECORDING = 1e6;    ///< of a run [MB]
 constexpr int MAX_STATES = 10000;        ///< in memory
 constexpr int MAX_COMMANDS = 10000;      ///< that wait for the simulation's thread
 constexpr int MAX_EVENTS_LOGGED = 10000000;

@@ -14,7 +14,7 @@ namespace cloth_tearing
 struct RecordingParams
 {
   std::string folder;     ///< an absolute path; empty = nothing is recorded
-  double limit = 1000.0;  ///< a file gets no longer [MB], 1 to 1000000
+  double limit = 1000.0;  ///< a file gets no longer [MB], 1 to MAX_RECORDING
 };
 
 /// Everything wrong with `params`, one sentence each, naming the parameter.
