@@ -70,11 +70,16 @@ public:
   }
 
   /// Reads on until a line holds `text`. @return whether one did
-  bool says(const std::string& text)
+  /// @param[out] said gets all lines that were read, that one too
+  bool says(const std::string& text, std::vector<std::string>* said = nullptr)
   {
     std::string line;
     while (readLine(line))
     {
+      if (said != nullptr)
+      {
+        said->push_back(line);
+      }
       if (line.find(text) != std::string::npos)
       {
         return true;

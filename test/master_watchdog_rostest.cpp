@@ -205,18 +205,23 @@ TEST_F(MasterWatchdogTest, SetsItsParametersAgainUnlessThereAreNewOnes)
 
 TEST_F(MasterWatchdogTest, SaysOnceThatTheMasterIsGoneAndOnceThatItIsBack)
 {
-  killMaster();
-  EXPECT_TRUE(node_->says("is gone"));
-  startMaster();
-  EXPECT_TRUE(node_->says("is back"));
-  EXPECT_TRUE(node_->says("registered again"));  // when all are: the last of it
+  std::vector<std::string> said;
+  for (int i = 0; i < 2; ++i)  // what is said too often is said before the next time at the latest
+  {
+    killMaster();
+    EXPECT_TRUE(node_->says("is gone", &said));
+    startMaster();
+    EXPECT_TRUE(node_->says("registered again", &said));  // when all are: the last of it
+  }
   node_->signal(SIGINT);
 
-  const std::vector<std::string> said = node_->lines();
-  for (const std::string text : { "is gone", "is back", "registered again" })
+  for (const std::string& line : node_->lines())
   {
-    EXPECT_EQ(count(said, text), 0) << text << ": it was said before";
+    said.push_back(line);
   }
+  EXPECT_EQ(count(said, "is gone"), 2);
+  EXPECT_EQ(count(said, "is back") - count(said, "until it is back"), 2);
+  EXPECT_EQ(count(said, "registered again"), 2);
   EXPECT_EQ(node_->exitStatus(), 0);
 }
 

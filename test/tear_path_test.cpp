@@ -201,50 +201,5 @@ TEST(TearPath, HeedsOnlyTheFanOfTheStretchedSpring)
   EXPECT_EQ(resistanceAt(cloth, HUB, spoke(cloth, 2)), 0.0);
 }
 
-TEST(WayPast, OpensAClosedFanOnBothSidesOfTheStretchedSpring)
-{
-  Cloth cloth = clothOf(wheel(8));
-  pullOut(cloth, 1, 1.4);  // nothing resists
-  ASSERT_FALSE(findTearPath(cloth, HUB, spoke(cloth, 1)).has_value());
-
-  const auto path = findWayPast(cloth, HUB, spoke(cloth, 1));
-
-  ASSERT_TRUE(path.has_value());
-  EXPECT_EQ(path->springs, (std::vector<SpringId>{ spoke(cloth, 8), spoke(cloth, 2) }));
-  EXPECT_EQ(path->resistance, 0.0);
-}
-
-TEST(WayPast, TakesTheSideOfAnOpenFanThatIsNearerToThePerpendicular)
-{
-  Cloth cloth = clothOf(openFan({ 10, 40, 90, 170, 200 }));
-
-  const auto path = findWayPast(cloth, HUB, spoke(cloth, 3));
-
-  ASSERT_TRUE(path.has_value());
-  EXPECT_EQ(path->springs, (std::vector<SpringId>{ spoke(cloth, 4) }));
-}
-
-TEST(WayPast, RunsAlongTheOtherSideOfTheTriangleOfABorder)
-{
-  const Cloth cloth = clothOf(openFan({ 0, 60, 120 }));
-
-  for (const int border : { 1, 3 })
-  {
-    const auto path = findWayPast(cloth, HUB, spoke(cloth, border));
-
-    ASSERT_TRUE(path.has_value());
-    EXPECT_EQ(path->springs, (std::vector<SpringId>{ spoke(cloth, 2) }));
-  }
-}
-
-TEST(WayPast, IsNoneWhereTheTrianglesOfTheSpringAreAllThereIs)
-{
-  const Cloth one = clothOf(openFan({ 0, 60 }));
-  const Cloth two = clothOf(openFan({ 0, 60, 120 }));
-
-  EXPECT_FALSE(findWayPast(one, HUB, spoke(one, 1)).has_value());
-  EXPECT_FALSE(findWayPast(two, HUB, spoke(two, 2)).has_value());
-}
-
 }  // namespace
 }  // namespace cloth

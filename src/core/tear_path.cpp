@@ -35,26 +35,14 @@ std::vector<Pull> pulls(const Cloth& cloth, ParticleId p, const Fan& fan, Spring
   return all;
 }
 
-/// Places strictly between `from` and `to`, going up and round a closed fan.
-std::vector<int> placesBetween(const Fan& fan, int from, int to)
+/// The spring nearest the perpendicular among the places strictly between `from` and `to`, going
+/// up and round a closed fan; none if there are none.
+SpringId mostPerpendicular(const Fan& fan, const std::vector<Pull>& pulls, int from, int to)
 {
   const int count = static_cast<int>(fan.springs.size());
-  std::vector<int> places;
-  for (int i = (from + 1) % count; i != to; i = (i + 1) % count)
-  {
-    places.push_back(i);
-  }
-  return places;
-}
-
-/// The spring nearest the perpendicular of the pull among `places`, ties by id; none if there are
-/// none.
-SpringId mostPerpendicular(const Fan& fan, const std::vector<Pull>& pulls,
-                           const std::vector<int>& places)
-{
   SpringId best;
   double least = 0.0;
-  for (const int i : places)
+  for (int i = (from + 1) % count; i != to; i = (i + 1) % count)
   {
     const double cosine = std::abs(pulls[i].cosine);
     const SpringId s = fan.springs[i];
@@ -70,17 +58,6 @@ SpringId mostPerpendicular(const Fan& fan, const std::vector<Pull>& pulls,
 Fan fanOf(const Cloth& cloth, ParticleId p, SpringId s)
 {
   return cloth.mesh.fanAt(p, cloth.mesh.spring(s).triangles[0]);
-}
-
-/// The most that one of them resists [N]; 0 if none does.
-double most(const std::vector<Pull>& pulls)
-{
-  double most = 0.0;
-  for (const Pull& pull : pulls)
-  {
-    most = std::max(most, pull.against);
-  }
-  return most;
 }
 
 /// Those that resist, most first, ties by id.
@@ -109,8 +86,8 @@ std::optional<TearPath> findTearPath(const Cloth& cloth, ParticleId p, SpringId 
   {
     TearPath path;
     path.resistance = held.against;
-    const auto [low, high] = std::minmax(pulled, held.place);
-    const SpringId between = mostPerpendicular(fan, all, placesBetween(fan, low, high));
+    const SpringId between =
+        mostPerpendicular(fan, all, std::min(pulled, held.place), std::max(pulled, held.place));
     if (!between.valid())
     {
       continue;
@@ -118,7 +95,8 @@ std::optional<TearPath> findTearPath(const Cloth& cloth, ParticleId p, SpringId 
     path.springs.push_back(between);
     if (fan.closed)
     {
-      const SpringId other_side = mostPerpendicular(fan, all, placesBetween(fan, high, low));
+      const SpringId other_side =
+          mostPerpendicular(fan, all, std::max(pulled, held.place), std::min(pulled, held.place));
       if (!other_side.valid())
       {
         continue;
@@ -130,35 +108,15 @@ std::optional<TearPath> findTearPath(const Cloth& cloth, ParticleId p, SpringId 
   return std::nullopt;
 }
 
-std::optional<TearPath> findWayPast(const Cloth& cloth, ParticleId p, SpringId stretched)
-{
-  const Fan fan = fanOf(cloth, p, stretched);
-  const std::vector<Pull> all = pulls(cloth, p, fan, stretched);
-  const int pulled = fan.indexOf(stretched);
-  const int last = static_cast<int>(fan.springs.size()) - 1;
-  TearPath path;
-  path.resistance = most(all);
-  if (fan.closed)
-  {
-    path.springs = { fan.springs[pulled == 0 ? last : pulled - 1],
-                     fan.springs[pulled == last ? 0 : pulled + 1] };
-    return path;
-  }
-  std::vector<int> inner;  // with triangles on both sides
-  for (const int place : { pulled - 1, pulled + 1 })
-  {
-    if (place > 0 && place < last)
-    {
-      inner.push_back(place);
-    }
-  }
-  path.springs = { mostPerpendicular(fan, all, inner) };
-  return inner.empty() ? std::nullopt : std::make_optional(path);
-}
-
 double resistanceAt(const Cloth& cloth, ParticleId p, SpringId stretched)
 {
-  return most(pulls(cloth, p, fanOf(cloth, p, stretched), stretched));
+  const Fan fan = fanOf(cloth, p, stretched);
+  double most = 0.0;
+  for (const Pull& pull : pulls(cloth, p, fan, stretched))
+  {
+    most = std::max(most, pull.against);
+  }
+  return most;
 }
 
 }  // namespace cloth

@@ -14,9 +14,6 @@ namespace
 /// How far a one-point tear may shift its copy, as a fraction of the rest length (3.2.3).
 constexpr double LARGEST_SHIFT = 0.25;
 
-/// A free end that is drawn out further than this does not follow the pull: something holds it [-].
-constexpr double MOST_OF_A_FOLLOWER = 1.0;
-
 /// Lengths in Real are taken for a little longer than they are: rounding must not hide a spring.
 constexpr double ROUNDING = 1.0 - 1e-5;
 
@@ -52,8 +49,8 @@ void weaken(Cloth& cloth, ParticleId p)
   cloth.damage.weak[p.index] = can ? 1 : 0;
 }
 
-/// Whether a triangle of the spring has a side that was released. Nothing bounds how far its
-/// corners come apart: springs that began there would be stretched without end.
+/// Whether a triangle of the spring has a side that was released. A spring that began there would
+/// be as long as that side has become.
 bool isBesideReleased(const Cloth& cloth, SpringId s)
 {
   for (TriangleId t : cloth.mesh.spring(s).triangles)
@@ -322,51 +319,33 @@ bool Tearing::tearSound(Cloth& cloth, std::vector<Grasp>& grasps, SpringId s, do
   {
     return false;
   }
-  const auto& ends = cloth.mesh.spring(s).particles;
-  const bool between_holds =
-      cloth.attachments[ends[0].index].held() && cloth.attachments[ends[1].index].held();
-  const bool follows = !between_holds && cloth.strain(s) <= MOST_OF_A_FOLLOWER;
-  const bool beside_released = isBesideReleased(cloth, s);
-  if (!beside_released && canSplit(cloth, s))
+  if (!isBesideReleased(cloth, s) && canSplit(cloth, s))
   {
     tearAcross(cloth, s, event);
+    return true;
   }
-  else if (const auto way = wayOut(cloth, s))
+  // Too fine to split: part the cloth along its springs, at the end that resists more.
+  std::optional<TearPath> best;
+  ParticleId at;
+  for (ParticleId p : cloth.mesh.spring(s).particles)
   {
-    tearAlong(cloth, grasps, way->at, way->path, event);
+    const auto path =
+        cloth.attachments[p.index].pinned() ? std::nullopt : findTearPath(cloth, p, s);
+    if (path && (!best || path->resistance > best->resistance))
+    {
+      best = path;
+      at = p;
+    }
   }
-  else if (!beside_released && follows)
+  if (best)
   {
-    return false;  // its free end carries nothing else
+    tearAlong(cloth, grasps, at, *best, event);
   }
   else
   {
     release(cloth, s, event);
   }
   return true;
-}
-
-/// How cloth that is too fine to split parts along its springs: at the end that resists more, there
-/// past the triangles of `s` if no tear would run through the fan.
-std::optional<Tearing::WayOut> Tearing::wayOut(const Cloth& cloth, SpringId s)
-{
-  for (const auto find : { findTearPath, findWayPast })
-  {
-    std::optional<WayOut> best;
-    for (ParticleId p : cloth.mesh.spring(s).particles)
-    {
-      const auto path = cloth.attachments[p.index].pinned() ? std::nullopt : find(cloth, p, s);
-      if (path && (!best || path->resistance > best->path.resistance))
-      {
-        best = WayOut{ p, *path };
-      }
-    }
-    if (best)
-    {
-      return best;
-    }
-  }
-  return std::nullopt;
 }
 
 bool Tearing::canSplit(const Cloth& cloth, SpringId s) const

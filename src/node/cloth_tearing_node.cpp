@@ -19,7 +19,7 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 /// How many heaps the node's threads share. glibc would give one to each thread up to eight a core,
-/// and what users come and go with would fragment all of them: memory crept up for half an hour.
+/// and what is allocated as users come and go would fragment all of them.
 constexpr int HEAPS = 2;
 
 bool masterAnswers(const std::atomic<bool>& giving_up)

@@ -27,13 +27,6 @@ struct TearPath
 /// @return none if nothing resists, or nothing lies between
 std::optional<TearPath> findTearPath(const Cloth& cloth, ParticleId p, SpringId stretched);
 
-/// The way past the triangles of `stretched` at `p`: along their other sides there, so that the
-/// rest of the fan no longer hangs on them. An open fan with others on both sides parts on the side
-/// that is nearer to the perpendicular of the pull; ties by id.
-///
-/// @return none if the fan has no other triangles
-std::optional<TearPath> findWayPast(const Cloth& cloth, ParticleId p, SpringId stretched);
-
 /// Tension of the spring in the fan of `stretched` at `p` that resists its pull most [N]; 0 if none
 /// does.
 double resistanceAt(const Cloth& cloth, ParticleId p, SpringId stretched);

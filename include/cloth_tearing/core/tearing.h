@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "cloth_tearing/core/cloth.h"
@@ -79,13 +78,6 @@ private:
     double resistance;
   };
 
-  /// Along which springs sound cloth parts, and at which particle.
-  struct WayOut
-  {
-    ParticleId at;
-    TearPath path;
-  };
-
   double leastRule() const;
   double strength(const Cloth& cloth, SpringId s) const;
   double crackBand(const Cloth& cloth, SpringId s) const;
@@ -108,7 +100,6 @@ private:
                     const Blocked& blocked, TearEvent& event);
   void release(Cloth& cloth, SpringId s, TearEvent& event);
 
-  static std::optional<WayOut> wayOut(const Cloth& cloth, SpringId s);
   bool canSplit(const Cloth& cloth, SpringId s) const;
   void relieve(Cloth& cloth, SpringId s, ParticleId copy, const Blocked& blocked) const;
   void conclude(Cloth& cloth, const Edit& edit, TearEvent& event);
